@@ -1,10 +1,13 @@
-"""Option names of the arguments of public functions, and error messages that use these names."""
+"""Option names of the arguments of public functions, error messages that use these names, and the inputs of a command."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from contextvars import ContextVar
+from pathlib import Path
+from typing import Any
 
 import typer
 
@@ -18,6 +21,10 @@ QUANTITIES = tuple(name for name in (*SYSTEM, *START) if name not in SI)
 COUNTS = ("max_cycles", "max_period")
 AXIS_FORM = "START:STOP:COUNT"
 RANGE_FORM = "START:STOP"
+INPUT_FILES = {"study": "the study file", "file": "the record", "sources": "a record"}
+"""Parameters of commands whose values are input files, and what these are in messages."""
+INPUTS: ContextVar[dict[Path, str]] = ContextVar("inputs", default={})  # noqa: B039 (replaced, never changed)
+"""Input files of the command that runs, and what they are in messages."""
 
 
 class YourInput(typer.TyperException):
@@ -54,3 +61,12 @@ def as_typed(text: str, typed: Mapping[str, str]) -> str:
         return text
     words = r"(?<!\w)(?:'[^']*'|\"[^\"]*\")|(?<![\w-])(" + "|".join(map(re.escape, typed)) + r")(?!['\w])"
     return re.sub(words, lambda found: typed[found[1]] if found[1] else found[0], text)
+
+
+def set_inputs(parameters: Mapping[str, Any]) -> None:
+    """Take the input files from the parameters of a command, so that the check of its outputs knows them."""
+    found: dict[Path, str] = {}
+    for name, what in INPUT_FILES.items():
+        given = parameters.get(name) or ()
+        found |= dict.fromkeys((given,) if isinstance(given, Path) else given, what)
+    INPUTS.set(found)

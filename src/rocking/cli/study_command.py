@@ -1,11 +1,11 @@
-"""Command with options from a study file: messages about an option name the file that gives it."""
+"""Class of all commands: its input files are known, and messages about an option name the study file that gives it."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from rocking.cli.command_help import CommandHelp
-from rocking.cli.option_names import YourInput
+from rocking.cli.option_names import YourInput, set_inputs
 
 
 class StudyCommand(CommandHelp):
@@ -13,6 +13,7 @@ class StudyCommand(CommandHelp):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; YourInput as raised by it, with the keys of the study file."""
+        set_inputs(ctx.params)
         try:
             return super().invoke(ctx)
         except YourInput as error:

@@ -35,7 +35,7 @@ def overturning_set(
     from rocking.cli.reports import overturning_set as report
 
     question = request.question(context.params, shared["study"])
-    files = record_source.files_of(question.places, sources, question.records)
+    files = record_source.files_of(question.places, question.records)
     found = request.compute(question)
     report.write(found, files)
     report.show(found, question.doubts, list(files.values()), as_json=shared["json"])

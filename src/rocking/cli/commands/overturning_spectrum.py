@@ -75,12 +75,10 @@ def overturning_spectrum(
     """
     from rocking.cli.input import overturning_spectrum_request as request
     from rocking.cli.output import survey_run
-    from rocking.cli.output.files import SUFFIXES, check_apart, check_files
     from rocking.cli.reports import overturning_spectrum as report
 
     question = request.question(context.params, study)
-    check_apart(question.places)
-    files = check_files({name: question.places.get(name) for name in SUFFIXES})
+    files = survey_run.files_of(question.places)
     found = request.compute(question)
     with survey_run.complete(question.places.get("store")):
         report.write(found, files, question.block)

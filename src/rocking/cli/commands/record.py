@@ -76,7 +76,7 @@ def record(
     from rocking.cli.output import motion_files
     from rocking.cli.reports import record as report
 
-    files = motion_files.check_of_record(file, plot=plot, animate=animate, csv=csv, netcdf=netcdf)
+    files = motion_files.check_of_record(plot=plot, animate=animate, csv=csv, netcdf=netcdf)
     block, braces, start = record_request.block_and_start(context.params)
     ground, doubts = record_request.ground_motion(context.params)
     with your_input(record_request.ARGUMENTS):

@@ -84,11 +84,10 @@ def safe_basin(
     amplitude as an AXIS, START:STOP:COUNT: COUNT evenly spaced values, both ends included. COUNT is optional. Default: 200.
     """
     from rocking.cli.input import safe_basin_request as request
-    from rocking.cli.output.files import check_apart, check_files
+    from rocking.cli.output.files import check_files
     from rocking.cli.reports import safe_basin as report
 
     question = request.question(context.params, study)
-    check_apart(question.places)
     files = check_files(question.places)
     found = request.compute(question)
     report.write(found, question.block, files)

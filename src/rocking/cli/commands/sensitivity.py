@@ -37,7 +37,7 @@ def sensitivity(
     from rocking.cli.reports import sensitivity as report
 
     question = request.question(context.params, shared["study"])
-    files = record_source.files_of(question.places, sources, question.records)
+    files = record_source.files_of(question.places, question.records)
     found = request.compute(question)
     report.write(found, files)
     report.show(found, question.doubts, list(files.values()), as_json=shared["json"])

@@ -66,7 +66,7 @@ def spectrum(
     from rocking.cli.reports import spectrum as report
 
     question = spectrum_request.question(context.params, shared["study"])
-    files = record_source.files_of(question.places, sources, question.records)
+    files = record_source.files_of(question.places, question.records)
     found = spectrum_request.compute(question)
     with survey_run.complete(question.places.get("store")):
         report.write(found, files)

@@ -12,7 +12,7 @@ from attrs import frozen
 from rocking.cli.input import study_file, survey_quantities
 from rocking.cli.option_names import COUNTS, START, SYSTEM, YourInput, option, options, your_input
 from rocking.cli.output import files
-from rocking.cli.output.files import SUFFIXES, check_apart, check_files
+from rocking.cli.output.files import SUFFIXES, check_files
 from rocking.cli.output.survey_run import ARGUMENTS, carried_out
 from rocking.model import TILES, Block, check_replaceable, instance, refusal
 
@@ -84,8 +84,8 @@ def _check_theory(asked: Question) -> None:
 
 def files_of(asked: Question) -> dict[str, Path]:
     """Return the requested output files, for tiles the page; YourInput if a file cannot be written."""
-    check_apart({name: asked.places.get(name) for name in PLACES})
-    files = check_files({name: asked.places.get(name) for name in SUFFIXES})
+    folders = {name: asked.places.get(name) for name in ("store", "tiles")}
+    files = check_files({name: asked.places.get(name) for name in SUFFIXES}, folders=folders)
     if "tiles" in asked.places:
         with your_input():
             folder = check_replaceable(option("tiles"), asked.places["tiles"], TILES)

@@ -162,19 +162,17 @@ def drift_doubts(records: RecordSet) -> list[str]:
     ]
 
 
-def files_of(places: Mapping[str, Path], sources: Sequence[Path], records: RecordSet) -> dict[str, Path]:
+def files_of(places: Mapping[str, Path], records: RecordSet) -> dict[str, Path]:
     """Return the output files among the `places`; YourInput if one cannot be written or would overwrite a record.
 
-    Records are the sources, and the files that a folder or a table of the sources names.
+    Records are also the files that a folder or a table names, and copies of them.
     """
-    from rocking.cli.output.files import SUFFIXES, check_apart, check_files
+    from rocking.cli.output.survey_run import files_of as survey_files
 
-    check_apart(places)
-    files = check_files({name: places.get(name) for name in SUFFIXES})
-    read = {source.resolve() for source in sources}
+    files = survey_files(places)
     contents = {motion.file.sha256 for motion in records if motion.file is not None}
     for name, path in files.items():
-        if path.resolve() in read or _digest(path) in contents:
+        if _digest(path) in contents:
             raise YourInput(f"{option(name)} must not overwrite a record; got {str(path)!r}")
     return files
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.option_names import QUANTITIES, YourInput, option, your_input
+from rocking.cli.option_names import INPUTS, QUANTITIES, YourInput, option, your_input
 from rocking.model import (
     PHYSICAL,
     SAME_IN_SI,
@@ -27,9 +27,16 @@ SUFFIXES = {"plot": PICTURES, "csv": (".csv",), "netcdf": (".nc",)}
 
 
 def check_files(
-    paths: Mapping[str, Path | None], suffixes: Mapping[str, tuple[str, ...]] = SUFFIXES
+    paths: Mapping[str, Path | None],
+    suffixes: Mapping[str, tuple[str, ...]] = SUFFIXES,
+    folders: Mapping[str, Path | None] | None = None,
 ) -> dict[str, Path]:
-    """Return the requested files by the names of their options; YourInput if a file cannot be written."""
+    """Return the requested files by the names of their options.
+
+    YourInput is raised for a file that cannot be written, and for outputs that would overwrite each other or an input. `folders`
+    are further outputs.
+    """
+    _check_apart({**(folders or {}), **paths})
     asked = {name: path for name, path in paths.items() if path is not None}
     for name, path in asked.items():
         if path == Path("-"):
@@ -41,22 +48,34 @@ def check_files(
     return asked
 
 
-def check_apart(paths: Mapping[str, Path | None]) -> None:
-    """Raise YourInput for two outputs at one path, or one output inside another."""
+def _check_apart(paths: Mapping[str, Path | None]) -> None:
+    """Raise YourInput for two outputs at one place, one output inside another, or an output in place of an input.
+
+    The place of a link is that of its target.
+    """
     taken: dict[Path, str] = {}
+    inputs = {Path("/dev/stdout"): "the file to which stdout is redirected", **INPUTS.get()}
     for name, path in paths.items():
         if path is None:
             continue
         with your_input():
             place = resolve_path(option(name), path)
+        for there, what in inputs.items():
+            if _same(place, there.resolve()):
+                raise YourInput(f"{option(name)} must not overwrite {what}; got {str(path)!r}")
         for there, other in taken.items():
-            if place == there:
+            if _same(place, there):
                 raise YourInput(f"{option(other)} and {option(name)} must differ; got {str(path)!r} for both")
             if place.is_relative_to(there) or there.is_relative_to(place):
                 raise YourInput(
                     f"{option(other)} and {option(name)} must not lie inside each other; got {str(path)!r} for {option(name)}"
                 )
         taken[place] = name
+
+
+def _same(one: Path, other: Path) -> bool:
+    """Return whether two absolute paths without symbolic links are one place, also by hard links."""
+    return one == other or (one.exists() and other.exists() and one.samefile(other))
 
 
 def write_csv(tables: Iterable[Mapping[str, Any]], path: Path) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.cli.option_names import YourInput, option
 from rocking.cli.output import files
-from rocking.cli.output.files import PICTURES, SUFFIXES, check_apart, check_files, write_dataset
+from rocking.cli.output.files import PICTURES, SUFFIXES, check_files, write_dataset
 
 if TYPE_CHECKING:
     from rocking.model import Block, State, System, Verdict
@@ -53,14 +53,9 @@ def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
     return asked
 
 
-def check_of_record(record: Path, **paths: Path | None) -> dict[str, Path]:
-    """Return the requested files; YourInput if one cannot be written, or is another one or the record itself."""
-    asked = check_files(paths, SUFFIXES | {"animate": FILMS})
-    check_apart(paths)
-    for name, path in asked.items():
-        if path.resolve() == record.resolve():
-            raise YourInput(f"{option(name)} must not overwrite the record; got {str(path)!r}")
-    return asked
+def check_of_record(**paths: Path | None) -> dict[str, Path]:
+    """Return the requested files; YourInput if a file cannot be written."""
+    return check_files(paths, SUFFIXES | {"animate": FILMS})
 
 
 def check_picture(path: Path | None) -> None:

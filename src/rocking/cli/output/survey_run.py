@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.cli.option_names import ARGUMENTS as SYSTEM_ARGUMENTS
 from rocking.cli.option_names import AXIS_FORM, NORMALISED, as_typed, option, options, your_input
-from rocking.cli.output.files import SUFFIXES, check_apart, check_files, columns, with_block, write_result
+from rocking.cli.output.files import SUFFIXES, check_files, columns, with_block, write_result
 
 if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, OverturningCurve, Share
@@ -73,8 +73,7 @@ def complete(store: Path | None) -> Iterator[None]:
 
 def files_of(asked: Mapping[str, Any]) -> dict[str, Path]:
     """Return the requested files; YourInput if a file cannot be written."""
-    check_apart({name: asked.get(name) for name in ("store", *SUFFIXES)})
-    return check_files({name: asked.get(name) for name in SUFFIXES})
+    return check_files({name: asked.get(name) for name in SUFFIXES}, folders={"store": asked.get("store")})
 
 
 def write(
