@@ -1,6 +1,7 @@
 """`rocking simulate` and common behaviour of the commands: output, files, error messages and exit codes."""
 
 import csv
+import errno
 import json
 import logging
 import os
@@ -433,7 +434,7 @@ def test_paper_refuses_unknown_figures_and_impossible_folders(rocking, tmp_path,
     assert not (tmp_path / "results").exists()
 
 
-@pytest.mark.parametrize("error", [RuntimeError("so\nsad"), ValueError("bad"), MemoryError()])
+@pytest.mark.parametrize("error", [RuntimeError("so\nsad"), ValueError("bad")])
 def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, tmp_path, monkeypatch, error):
     def fail(*_, **__):
         raise error
@@ -443,6 +444,46 @@ def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, tmp_path, monke
     assert code == 1
     assert message == f"internal error: {type(error).__name__}: {' '.join(str(error).split())}".strip()
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "error, why",
+    [
+        (MemoryError(), "no more memory can be allocated"),
+        (MemoryError("Unable to allocate 8. TiB"), "Unable to allocate 8. TiB"),
+        (OSError(errno.ENOMEM, "Cannot allocate memory"), "[Errno 12] Cannot allocate memory"),
+        (RuntimeError("can't start new thread"), "can't start new thread"),
+    ],
+)
+def test_lack_of_memory_or_of_threads_is_one_line_with_the_remedy(rocking, tmp_path, monkeypatch, error, why):
+    def fail(*_, **__):
+        raise error
+
+    monkeypatch.setattr("rocking.cli.output.motion_files.tables", fail)
+    code, message, out = rocking(f"simulate {NORMALISED} --csv a.csv")
+    assert (code, out) == (2, "")
+    assert message == (
+        f"the memory or the threads that this process may use do not suffice: {why} (reduce the numbers of points, samples or "
+        "cycles, or raise the limits, such as those of ulimit -v and ulimit -u)"
+    )
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("megabytes", [200, 300])
+def test_limit_of_memory_that_libraries_do_not_fit_in_is_one_line_with_the_remedy(megabytes, tmp_path):
+    limited = f"""
+import resource
+from rocking.cli.main import main
+
+resource.setrlimit(resource.RLIMIT_AS, ({megabytes << 20}, {megabytes << 20}))
+main()
+"""
+    line = ["map", "--amplitude", "0:6:5", "--period", "1:2:5", "--restitution", "0.9", "--max-cycles", "10"]
+    done = subprocess.run(
+        [sys.executable, "-c", limited, *line], capture_output=True, text=True, cwd=tmp_path, check=False
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert re.fullmatch(r"rocking: the memory or the threads [^\n]*ulimit -u\)\n", done.stderr), done.stderr
 
 
 def test_piped_output_has_no_colours_and_errors_go_to_stderr(tmp_path):

@@ -1,15 +1,18 @@
 """Entry point of the command `rocking`.
 
-Exit codes: 0 success, 1 internal error, 2 invalid input, 130 interrupted (Ctrl-C). An error is one line on stderr.
+Exit codes: 0 success, 1 internal error, 2 invalid input or not enough memory or disk space, 130 interrupted (Ctrl-C). An error
+is one line on stderr.
 """
 
 from __future__ import annotations
 
+import errno
 import logging
 import os
 import re
 import signal
 import sys
+import warnings
 from pathlib import Path
 from typing import NoReturn
 
@@ -17,6 +20,7 @@ from rocking.cli.output.compile_bar import CompileBar
 from rocking.kernels.waiting import LISTENERS
 
 INTERRUPTED = 130
+LACK = re.compile("can't start new thread|failed to map segment|cannot allocate memory", re.IGNORECASE)
 
 
 class Terminal(logging.Handler):
@@ -30,6 +34,8 @@ class Terminal(logging.Handler):
 def main() -> NoReturn:
     """Run the command line and exit."""
     interrupts, bar = [], CompileBar()
+    # NumPy needs no threads of its own here. With little memory they hang or fail when it is loaded.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
     def interrupt(*_: object) -> NoReturn:
         # Some libraries lose a KeyboardInterrupt or turn it into another error: so it is recorded here.
@@ -38,6 +44,7 @@ def main() -> NoReturn:
         raise KeyboardInterrupt
 
     signal.signal(signal.SIGINT, interrupt)
+    warnings.showwarning = warn
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by the calling process
             setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115
@@ -58,6 +65,11 @@ def main() -> NoReturn:
     if message:
         print("rocking:", message, file=sys.stderr)
     sys.exit(code)
+
+
+def warn(message: Warning | str, *_: object, **__: object) -> None:
+    """Print a warning as one line on stderr."""
+    print("rocking:", message, file=sys.stderr)
 
 
 def run() -> tuple[int, str]:
@@ -82,6 +94,12 @@ def refused(error: Exception) -> tuple[int, str]:
 
     from rocking.model import FULL, WriteError
 
+    if (lack := lacking(error)) is not None:
+        why = str(lack) or "no more memory can be allocated"
+        return 2, (
+            f"the memory or the threads that this process may use do not suffice: {why} "
+            "(reduce the numbers of points, samples or cycles, or raise the limits, such as those of ulimit -v and ulimit -u)"
+        )
     if isinstance(error, TyperException):
         # Typer's "Invalid value for '--name': must …" in the form of all other messages.
         return 2, re.sub(r"^Invalid value for '([\w-]+)': must ", r"\1 must ", error.format_message())
@@ -94,6 +112,20 @@ def refused(error: Exception) -> tuple[int, str]:
         discard_stdout()
         return 2, f"the output cannot be written: {error.strerror} (free some space, or redirect the output)"
     return 1, f"internal error: {type(error).__name__}: {error}"
+
+
+def lacking(error: BaseException | None) -> BaseException | None:
+    """Return the error behind `error` that tells of a lack of memory or of threads, or None.
+
+    Libraries that cannot be loaded, and threads that cannot start, tell it in their messages only.
+    """
+    while error is not None:
+        if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
+            return error
+        if isinstance(error, ImportError | OSError | RuntimeError) and LACK.search(str(error)):
+            return error
+        error = error.__cause__ or error.__context__
+    return None
 
 
 def discard_stdout() -> None:
