@@ -6,7 +6,11 @@ import json
 import math
 import os
 import re
+import resource
 import shutil
+import subprocess
+import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +24,7 @@ from rocking.survey.engine import tile_loop
 from rocking.survey.store import store
 from rocking.survey.store.chunk_files import Files
 from rocking.survey.store.layout import check_same
+from rocking.survey.store.locking import lock as lock_of_store
 
 SIZE = 130
 ASKED = {
@@ -179,6 +184,133 @@ def test_extension_killed_between_its_steps_is_taken_up(copied, monkeypatch, ste
     assert rk.parametric_map(**longer, store=copied).load().equals(rk.parametric_map(**longer))
 
 
+@pytest.mark.parametrize("written", [0, 1, 3, 30, 37, 44, 60])
+def test_extension_that_ends_between_two_files_is_resumed_to_the_same_bytes(
+    made, copied, tmp_path, monkeypatch, written
+):
+    longer = ASKED | {"period": np.append(ASKED["period"], [3.1, 3.2])}
+    whole = shutil.copytree(made, tmp_path / "undisturbed.zarr")
+    rk.parametric_map(**longer, store=whole)
+    write, left = Files.set_sync, [written]
+
+    def killed(files, key, value):
+        left[0] -= 1
+        return write(files, key, value) if left[0] >= 0 else 1 / 0
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Files, "set_sync", killed)
+        with pytest.raises(ZeroDivisionError):
+            rk.parametric_map(**longer, store=copied)
+    rk.parametric_map(**longer, store=copied)
+    assert files(copied) == files(whole)
+
+
+LEFT_OUT = {
+    "a tile": lambda folder: [path.unlink() for path in folder.glob("level-2/cycles/*/1/2")] and {},
+    "longer axes": lambda folder: {"period": np.append(ASKED["period"], 3.1)},
+    "a damaged tile": lambda folder: (folder / "level-1/peak/c/0/1").write_bytes(b"") or {"repair": True},
+}
+
+
+MOVES = {
+    "renamed": lambda folder: folder.rename(folder.with_name("elsewhere")),
+    "deleted": shutil.rmtree,
+    "replaced": lambda folder: (folder.rename(folder.with_name("elsewhere")), folder.mkdir()),
+}
+
+
+@pytest.mark.parametrize("tiles", [1, 6, 21])
+@pytest.mark.parametrize("how", MOVES)
+def test_store_that_is_moved_or_deleted_during_the_run_ends_it_and_nothing_is_written_in_its_place(
+    tmp_path, monkeypatch, how, tiles
+):
+    folder, write, left = tmp_path / "map.zarr", store.Store.write, [tiles]
+
+    def moving(kept, tile, answers):
+        write(kept, tile, answers)
+        left[0] -= 1
+        if left[0] == 0:
+            MOVES[how](folder)
+
+    monkeypatch.setattr(store.Store, "write", moving)
+    message = (
+        f"store {str(folder)!r} was moved, deleted or replaced during the run, which writes nothing more "
+        "(run again with the folder in its place, or with another one)"
+    )
+    with pytest.raises(OSError, match=f"^{re.escape(message)}$"):
+        rk.parametric_map(**ASKED, store=folder)
+    assert how != "replaced" or not files(folder)
+    assert how == "replaced" or not folder.exists()
+    if how == "renamed":  # and it is good
+        folder.with_name("elsewhere").rename(folder)
+        rk.parametric_map(**ASKED, store=folder)
+
+
+def test_file_that_is_lost_during_the_run_ends_it(copied, monkeypatch):
+    monkeypatch.setattr(store, "MAX_HELD", 0)
+    longer = ASKED | {"amplitude": np.linspace(0.0, 16.0, 2 * SIZE - 1)}
+    run = tile_loop.run
+
+    def losing(*arguments):
+        (copied / "level-2/peak/c/0/0").unlink()
+        run(*arguments)
+
+    monkeypatch.setattr("rocking.survey.engine.run_survey.run", losing)
+    with pytest.raises(OSError, match="lost files during the run \\(run again to recompute them\\)"):
+        rk.parametric_map(**longer, store=copied)
+
+
+@pytest.fixture
+def locked(made, monkeypatch):
+    """Copy of the store in a folder where this process can only read, as an ordinary user; `out` beside it takes files."""
+    place = Path(tempfile.mkdtemp())
+    folder = shutil.copytree(made, place / "map.zarr")
+    (place / "out").mkdir()
+    (place / "out").chmod(0o777)
+    monkeypatch.chdir(place)
+
+    def lock():
+        for path in (*folder.rglob("*"), folder, place):
+            path.chmod(0o555 if path.is_dir() else 0o444)
+        if os.geteuid() == 0:
+            os.seteuid(65_534)
+
+    yield folder, lock
+    os.seteuid(os.getuid())
+    for path in (place, folder, *folder.rglob("*")):
+        path.chmod(0o755)
+    shutil.rmtree(place)
+
+
+def map_line(folder):
+    return f"map --amplitude 0:16:{SIZE} --period 0.2:3:{SIZE} --restitution 0.9 --max-cycles 40 --store {folder}"
+
+
+def test_complete_store_where_nothing_can_be_written_is_read_and_drawn(locked, plain, rocking, computed):
+    (folder, lock), before = locked, files(locked[0])
+    os.chdir(folder.parent)
+    lock()
+    with lock_of_store(folder, shared=True):  # of another process that reads it
+        code, message, _ = rocking(f"{map_line(folder)} --plot out/map.png --netcdf out/map.nc")
+    assert (code, message) == (0, "")
+    assert xr.load_dataset("out/map.nc").kind.equals(plain.kind)
+    rk.plot.parametric_map(folder)
+    assert (computed(), files(folder)) == (0, before)
+
+
+@pytest.mark.parametrize("left_out", LEFT_OUT)
+def test_incomplete_store_where_nothing_can_be_written_is_refused(locked, left_out, computed):
+    folder, lock = locked
+    changed = LEFT_OUT[left_out](folder)
+    lock()
+    message = f"store {str(folder)!r} lacks some of these points and cannot be resumed: its folder cannot be written"
+    with pytest.raises(OSError, match=re.escape(message)):
+        rk.parametric_map(**(ASKED | changed), store=folder)
+    assert computed() == 0
+    with pytest.raises(OSError, match="^store must be a folder that can be written; got 'new.zarr'$"):
+        rk.parametric_map(**ASKED, store="new.zarr")
+
+
 @pytest.mark.parametrize("written", [0, 1, 3, 8, 30])
 def test_full_disk_while_a_store_is_made_is_said_once(tmp_path, monkeypatch, caplog, plain, written):
     write, left = Files.set_sync, [written]
@@ -257,21 +389,86 @@ def test_store_of_other_variables_is_told_by_those_that_only_one_has():
         check_same("map.zarr", long, {"survey": "map" * 40 + "b"})
 
 
-def test_store_of_another_method_is_refused(made, monkeypatch):
-    monkeypatch.setattr("rocking.kernels.batch.METHOD", METHOD + 1)
-    with pytest.raises(
-        ValueError, match=f"holds a different survey: method is {METHOD} there and {METHOD + 1} here"
-    ):
-        rk.parametric_map(**ASKED, store=made)
-
-
-def test_store_of_another_format_is_refused(copied):
-    root = copied / "zarr.json"
+def stated(folder, **changed):
+    """Change what a store says about its survey; None removes an entry."""
+    root = folder / "zarr.json"
     described = json.loads(root.read_text())
-    del described["attributes"]["rocking_survey"]["format"]
+    said = described["attributes"]["rocking_survey"] | changed
+    described["attributes"]["rocking_survey"] = {
+        name: each for name, each in said.items() if each is not None
+    }
     root.write_text(json.dumps(described))
+
+
+def outdated(folder, monkeypatch, what):
+    """Make a store one of another method, or one of a format without digests; return what is said of it."""
+    if what == "method":
+        monkeypatch.setattr("rocking.kernels.batch.METHOD", METHOD + 1)
+        return f"its results are those of method {METHOD}, and this version computes with method {METHOD + 1}"
+    stated(folder, format=2)
+    for level in folder.glob("level-*"):
+        shutil.rmtree(level / "cycles" / "digests")
+    return "its format 2 does not bind tiles to their survey, as format 3 does"
+
+
+@pytest.mark.parametrize("what", ["method", "format"])
+def test_complete_store_of_another_method_or_older_format_is_read_with_a_warning(
+    copied, monkeypatch, what, computed, plain
+):
+    told = outdated(copied, monkeypatch, what)
     before = files(copied)
-    with pytest.raises(ValueError, match="holds a different survey: format is not given there and 2 here"):
+    with pytest.warns(UserWarning, match=re.escape(f"read from store {str(copied)!r}: {told}")):
+        kept = rk.parametric_map(**ASKED, store=copied)
+    assert kept.load().equals(plain)
+    assert kept.attrs["method"] == METHOD
+    rk.plot.parametric_map(copied)
+    assert level(copied, 2).load().equals(plain)
+    assert (computed(), files(copied)) == (0, before)
+
+
+def test_command_says_in_one_line_that_it_reads_a_store_of_an_older_format(copied, monkeypatch):
+    told = outdated(copied, monkeypatch, "format")
+    done = subprocess.run(
+        [sys.executable, "-m", "rocking", *map_line(copied).split()],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (
+        0,
+        f"rocking: all results are read from store {str(copied)!r}: {told}\n",
+    )
+
+
+@pytest.mark.parametrize("left_out", LEFT_OUT)
+@pytest.mark.parametrize("what", ["method", "format"])
+def test_incomplete_store_of_another_method_or_older_format_is_drawn_and_not_resumed(
+    copied, monkeypatch, what, left_out, computed
+):
+    told = outdated(copied, monkeypatch, what)
+    changed = LEFT_OUT[left_out](copied)
+    before = files(copied)
+    message = f"store {str(copied)!r} lacks some of these points and cannot be resumed: {told} (give another folder;"
+    with pytest.raises(OSError, match=re.escape(message)):
+        rk.parametric_map(**(ASKED | changed), store=copied)
+    assert (computed(), files(copied)) == (0, before)
+    if left_out != "a damaged tile":
+        rk.plot.parametric_map(copied)
+
+
+def test_damage_of_a_store_that_cannot_be_resumed_is_named(copied, monkeypatch):
+    outdated(copied, monkeypatch, "format")
+    (copied / "level-1/peak/c/0/1").write_bytes(b"")
+    with pytest.raises(
+        OSError, match=r"is damaged at '.*/level-1/peak/c/0/1' \(restore these files, or give"
+    ):
+        rk.parametric_map(**ASKED, store=copied)
+
+
+def test_store_of_a_format_that_cannot_be_read_is_refused(copied):
+    stated(copied, format=None)
+    before = files(copied)
+    with pytest.raises(ValueError, match="holds a different survey: format is not given there and 3 here"):
         rk.parametric_map(**ASKED, store=copied)
     assert files(copied) == before
 
@@ -415,6 +612,38 @@ def test_more_points_than_memory_holds_need_a_store():
         rk.parametric_map(**(ASKED | many))
 
 
+def test_more_points_than_a_store_takes_are_refused_and_nothing_is_written(tmp_path):
+    many = {"amplitude": np.linspace(0.0, 16.0, 1_000_000), "period": np.linspace(0.2, 3.0, 100_001)}
+    with pytest.raises(
+        ValueError, match=r"^store must hold 100,000,000,000 points at most; got 100,001,000,000"
+    ):
+        rk.parametric_map(**(ASKED | many), store=tmp_path / "map.zarr")
+    assert not list(tmp_path.iterdir())
+
+
+def test_limit_of_the_memory_of_the_process_counts(monkeypatch):
+    monkeypatch.setattr(resource, "getrlimit", lambda which: (5 * 10**8, 10**12))
+    many = {"amplitude": np.linspace(0.0, 16.0, 3_000), "period": np.linspace(0.2, 3.0, 3_000)}
+    with pytest.raises(
+        ValueError, match=r"0\.423 GB, too much for the memory that this process may use, 0\.5 GB"
+    ):
+        rk.parametric_map(**(ASKED | many))
+
+
+def test_store_that_does_not_fit_into_the_memory_is_not_called_damaged(made, monkeypatch):
+    def fail(*_, **__):
+        raise MemoryError
+
+    for name, read in (
+        ("zarr.open_group", lambda: rk.parametric_map(**ASKED, store=made)),
+        ("xarray.Dataset.load", lambda: rk.plot.parametric_map(made)),
+    ):
+        with monkeypatch.context() as patch:
+            patch.setattr(name, fail)
+            with pytest.raises(MemoryError):
+                read()
+
+
 DAMAGE = {
     "a bit": lambda data: data[:100] + bytes([data[100] ^ 1]) + data[101:],
     "cut short": lambda data: data[: len(data) // 2],
@@ -424,19 +653,22 @@ DAMAGE = {
 }
 
 
-@pytest.mark.parametrize("name", ["exponent", "cycles"])
+@pytest.mark.parametrize("name", ["exponent/c", "cycles/c", "cycles/digests"])
 @pytest.mark.parametrize("what", DAMAGE)
 def test_damage_is_found_named_and_mended_on_request(copied, what, name, computed, plain):
     whole = files(copied)
-    chunk = copied / "level-2" / name / "c" / "1" / "2"
+    place = f"level-2/{name}/1/2"
+    chunk = copied / place
     if what == "missing":
         chunk.unlink()
     else:
         chunk.write_bytes(DAMAGE[what](chunk.read_bytes()))
-    if (what, name) != ("missing", "cycles"):  # that is a tile which was never done
+    if (what, name) != ("missing", "cycles/digests"):  # that is a tile which was never done
+        if (what, name) == ("a bit", "cycles/digests"):
+            place = "level-2/kind/c/1/2"  # whose digest is another one now
         with pytest.raises(
             OSError,
-            match=f"is damaged at {re.escape(repr(str(chunk)))} \\(recompute these tiles with repair\\)",
+            match=f"is damaged at {re.escape(repr(str(copied / place)))} \\(recompute these tiles with repair\\)",
         ):
             rk.parametric_map(**ASKED, store=copied)
     assert rk.parametric_map(**ASKED, store=copied, repair=True).load().equals(plain)
@@ -507,3 +739,76 @@ def test_damage_in_a_coarse_level_is_mended_there(copied, plain):
         rk.parametric_map(**ASKED, store=copied)
     rk.parametric_map(**ASKED, store=copied, repair=True)
     assert files(copied) == whole
+
+
+OTHERS = {"restitution": 0.8}, {"amplitude": np.linspace(0.0, 8.0, SIZE)}, {"angle": 0.1}
+
+
+@pytest.fixture(scope="module")
+def others(tmp_path_factory):
+    """Stores of other surveys whose files have the same names."""
+    folders = [tmp_path_factory.mktemp("other") / "map.zarr" for _ in OTHERS]
+    for folder, changed in zip(folders, OTHERS, strict=True):
+        rk.parametric_map(**(ASKED | changed), store=folder)
+    return folders
+
+
+def tile_files(folder):
+    """Return the chunks of all variables and the digests of all tiles of a store, in order."""
+    names = ("level-*/*/c/*/*", "level-*/cycles/digests/*/*")
+    return sorted(path.relative_to(folder) for name in names for path in folder.glob(name))
+
+
+def tile_of(path):
+    return path.parts[0], path.parts[-2:]
+
+
+def disturb(random, store, others, whole):
+    """Change one file of a store, or all files of one tile, at random; return what was changed."""
+    names = sorted(whole)
+    of_a_tile = {tile_of(name): [each for each in names if tile_of(each) == tile_of(name)] for name in names}
+    while True:
+        name, other = names[random.integers(len(names))], names[random.integers(len(names))]
+        kind = random.choice(["bit", "survey", "place", "whole tile of a survey", "whole tile of a place"])
+        source = others[random.integers(len(others))] if "survey" in kind else store
+        new = {}
+        if kind == "bit":
+            content = bytearray(whole[name])
+            content[random.integers(len(content))] ^= 1 << random.integers(8)
+            new = {name: bytes(content)}
+        elif kind == "survey":
+            new = {name: (source / name).read_bytes()}
+        elif kind == "place" and name.parts[-3] == other.parts[-3]:
+            new = {name: whole[other]}
+        elif kind == "whole tile of a survey":
+            new = {each: (source / each).read_bytes() for each in of_a_tile[tile_of(name)]}
+        elif kind == "whole tile of a place":
+            one, two = of_a_tile[tile_of(name)], of_a_tile[tile_of(other)]
+            new = {each: whole[beside] for each, beside in zip(one, two, strict=True)}
+        if any(content != whole[each] for each, content in new.items()):
+            for each, content in new.items():
+                (store / each).write_bytes(content)
+            return kind, tile_of(name)
+
+
+def check_noticed(copied, others, computed, count, seed):
+    random, whole = np.random.default_rng(seed), files(copied)
+    of_tiles = {name: whole[name] for name in tile_files(copied)}
+    seen = set()
+    for _ in range(count):
+        kind, (where, index) = disturb(random, copied, others, of_tiles)
+        seen.add(str(kind))
+        with pytest.raises(OSError, match=f"is damaged at '.*/{where}/.*/{'/'.join(index)}'"):
+            rk.parametric_map(**ASKED, store=copied)
+        rk.parametric_map(**ASKED, store=copied, repair=True)
+        assert files(copied) == whole, kind
+    return seen
+
+
+def test_chunks_of_another_survey_or_place_are_noticed_and_mended(copied, others, computed):
+    check_noticed(copied, others, computed, count=12, seed=3)
+
+
+@pytest.mark.long
+def test_two_hundred_swaps_and_flips_are_all_noticed_and_mended(copied, others, computed):
+    assert len(check_noticed(copied, others, computed, count=200, seed=200)) == 5

@@ -115,6 +115,8 @@ def _reading(folder: Path | None) -> Iterator[None]:
     """Raise OSError with the folder and the remedy for a store that cannot be read."""
     try:
         yield
+    except MemoryError:
+        raise
     except Exception as error:
         if folder is None:
             raise

@@ -16,8 +16,8 @@ from rocking.survey.tiling import Level, even_edges, levels, thinned, tile_edges
 SAME = 1e-9
 """Tolerance of equal axis values, relative to their spacing: extending an axis changes its rounding."""
 
-FORMAT = 2
-"""Version of the file format; increased when files no longer match the metadata of older stores."""
+FORMAT, READABLE = 3, (2, 3)
+"""Version of the file format, and those that can be read. Tiles of format 2 have no digests."""
 DEFAULT_DIGITS, ALL_DIGITS = 6, 17
 """Digits of differing numbers in messages: as many as show the difference."""
 
@@ -111,7 +111,10 @@ def check_described(stored: Any) -> None:
 
 
 def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) -> None:
-    """Raise ValueError for a store of a different survey; the message lists the differences."""
+    """Raise ValueError for a store of a different survey; the message lists the differences.
+
+    A store of another method, or of an older format that can be read, is one of the same survey.
+    """
     ours, theirs = _flat(mine), _flat(stored)
     differences = [
         _difference(name, theirs.get(name), ours.get(name))
@@ -122,6 +125,16 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
         raise ValueError(
             f"store {path!r} holds a different survey: {'; '.join(differences)} (give another folder, or the same values)"
         )
+
+
+def why_finished(stored: Mapping[str, Any], mine: Mapping[str, Any]) -> str:
+    """Return why no results may be added to a store of the same survey; empty if they may."""
+    there, here = stored.get("method"), mine["method"]
+    if there != here:
+        return f"its results are those of method {shown(there)}, and this version computes with method {here}"
+    if stored["format"] != FORMAT:
+        return f"its format {stored['format']} does not bind tiles to their survey, as format {FORMAT} does"
+    return ""
 
 
 def joined(path: str, stored: Layout, asked: SurveySpec) -> Layout:
@@ -161,7 +174,9 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
 
 def _flat(metadata: Mapping[str, Any]) -> dict[str, Any]:
     """Return the compared properties by their names in messages."""
-    alone = {name: metadata.get(name) for name in ("survey", "over", "variables", "method", "format")}
+    alone = {name: metadata.get(name) for name in ("survey", "over", "variables", "format")}
+    if alone["format"] in READABLE:
+        alone["format"] = FORMAT
     return alone | dict(metadata.get("fixed", {})) | dict(metadata.get("options", {}))
 
 

@@ -10,11 +10,11 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import current_thread, main_thread
 
-from rocking.model import check_folder, refusal, resolve_path
+from rocking.model import FULL, check_folder, refusal, resolve_path
 
 ROOT = "zarr.json"
 UNFINISHED = re.compile(r"(zarr|\d+)\.[0-9a-f]{32}\.partial")
-"""File name of metadata or of a chunk while Zarr writes it."""
+"""File name of metadata or of a chunk while it is written."""
 
 
 class StoreError(OSError):
@@ -22,14 +22,18 @@ class StoreError(OSError):
 
 
 def check_store(path: str | os.PathLike[str]) -> Path:
-    """Return the path of a store; StoreError if it is neither a store of a survey nor a new or empty folder."""
+    """Return the path of a store; StoreError if it is neither a store of a survey nor a new or empty folder.
+
+    A store may lie where nothing can be written: it can be read.
+    """
     if not isinstance(path, str | os.PathLike) or not os.fspath(path):
         raise TypeError(refusal("store", "be the path of a folder", path))
     folder = Path(path)
     place = resolve_path("store", folder)
     if place.exists() and not place.is_dir():
         raise StoreError(f"store must be the path of a folder; got {str(path)!r}, which is a file")
-    check_folder("store", folder)
+    if not (place / ROOT).is_file():
+        check_folder("store", folder)
     names = {each.name for each in place.iterdir()} if place.exists() else set()
     held = {name for name in names if not UNFINISHED.fullmatch(name)}
     if held and ROOT not in held:
@@ -42,9 +46,20 @@ def something_else(folder: Path, what: str) -> str:
     return f"store must be a new folder, or the folder of an earlier survey; got {str(folder)!r}, which is {what}"
 
 
+def place_of(folder: Path) -> tuple[int, int] | None:
+    """Return the device and the inode of a folder; None if it does not exist."""
+    with suppress(OSError):
+        found = folder.stat()
+        return found.st_dev, found.st_ino
+    return None
+
+
 @contextmanager
-def exclusive_lock(folder: Path) -> Iterator[None]:
-    """Lock a store; StoreError if another run uses it. The system releases the lock when the process ends."""
+def lock(folder: Path, *, shared: bool) -> Iterator[None]:
+    """Lock a store; StoreError if another run uses it. The system releases the lock when the process ends.
+
+    Runs that only read a store share it.
+    """
     try:
         import fcntl
     except ImportError:  # only Unix has this lock
@@ -53,7 +68,7 @@ def exclusive_lock(folder: Path) -> Iterator[None]:
     handle = os.open(folder, os.O_RDONLY)
     try:
         try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(handle, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
         except BlockingIOError:
             raise StoreError(
                 f"store {str(folder)!r} is in use by another run; wait until that run ends, or stop it"
@@ -89,9 +104,10 @@ def wrap_write_errors(folder: Path) -> Iterator[None]:
         raise
     except OSError as error:
         why = error.strerror or str(error)
-        raise StoreError(
-            f"store {str(folder)!r} cannot be written: {why}; the existing data are intact: free some space and run again"
-        ) from error
+        remedy = "; the existing data are intact: free some space and run again"
+        if error.errno not in FULL:
+            remedy = " (make the folder writable, or give another one)"
+        raise StoreError(f"store {str(folder)!r} cannot be written: {why}{remedy}") from error
 
 
 @contextmanager
@@ -99,6 +115,10 @@ def reading(folder: Path) -> Iterator[None]:
     """Convert unreadable metadata to a StoreError that names the store and the remedy."""
     try:
         yield
+    except (StoreError, MemoryError):
+        raise
+    except PermissionError as error:
+        raise StoreError(f"store {str(folder)!r} cannot be read: {error.strerror}") from error
     except Exception as error:
         raise StoreError(
             f"store {str(folder)!r} is damaged: one of its files {ROOT} cannot be read ({error}); "
@@ -111,7 +131,7 @@ def remove_unfinished(folder: Path, arrays: Iterable[str]) -> None:
 
     All other files and folders in the store remain.
     """
-    own = re.compile(rf"\.|level-\d+(/({'|'.join(map(re.escape, arrays))})(/c(/\d+)*)?)?")
+    own = re.compile(rf"\.|level-\d+(/({'|'.join(map(re.escape, arrays))})(/(c|digests)(/\d+)*)?)?")
     for place, _, files in os.walk(folder, topdown=False):
         below = Path(place).relative_to(folder).as_posix()
         if not own.fullmatch(below):

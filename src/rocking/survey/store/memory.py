@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -57,14 +58,20 @@ def check_fits(asked: SurveySpec, measure: Measurement) -> None:
     needed = asked.points * sum(np.dtype(each.dtype).itemsize for each in measure.variables)
     if needed > SHARE * memory_size():
         raise ValueError(
-            f"{asked.points:,} points take {needed / 1e9:.3g} GB, too much for the memory of this machine, "
+            f"{asked.points:,} points take {needed / 1e9:.3g} GB, too much for the memory that this process may use, "
             f"{memory_size() / 1e9:.3g} GB (give store, a folder for the results)"
         )
 
 
 def memory_size() -> float:
-    """Return the memory of this machine in bytes; infinite if unknown."""
-    try:
-        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    except (AttributeError, ValueError, OSError):
-        return math.inf
+    """Return the memory that this process may use in bytes: that of the machine, or its limit; infinite if unknown."""
+    size = math.inf
+    with suppress(AttributeError, ValueError, OSError):
+        size = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    with suppress(ImportError):  # only Unix has this limit
+        import resource
+
+        limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+        if limit != resource.RLIM_INFINITY:
+            size = min(size, limit)
+    return size

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,10 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rocking.model import takes_files
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import SurveySpec
-from rocking.survey.store import zarr_metadata
+from rocking.survey.store import tile_digests, zarr_metadata
 from rocking.survey.store.layout import (
+    FORMAT,
     Layout,
     check_described,
     check_same,
@@ -23,13 +26,14 @@ from rocking.survey.store.layout import (
     joined,
     new_layout,
     read_layout,
+    why_finished,
 )
 from rocking.survey.store.locking import (
     ROOT,
     StoreError,
     check_store,
     defer_interrupt,
-    exclusive_lock,
+    lock,
     reading,
     remove_unfinished,
     something_else,
@@ -44,6 +48,8 @@ if TYPE_CHECKING:
 NAME = "rocking_survey"
 """Attribute of the root group that identifies the store of a survey."""
 MAX_NAMED = 5
+MAX_POINTS = 10**11
+"""Largest number of points of a store: about a terabyte in tens of millions of files."""
 MAX_HELD = 1 << 20
 """Largest level, in points, held in memory for the next one: about 50 MB, with all others less than twice that."""
 
@@ -51,32 +57,42 @@ MAX_HELD = 1 << 20
 class Store:
     """Store opened exclusively for this run by `opened`.
 
-    The chunk of the last variable is written last and marks a tile as complete. Tiles without this mark are recomputed.
-    Every file is written under a temporary name and renamed.
+    The digests of the chunks of a tile are written last and mark it as complete. Tiles without this mark are recomputed.
+    Every file is written under a temporary name and renamed. A complete store may be read only: because it cannot be `writable`, or
+    because another method or an older format made it.
     """
 
-    def __init__(self, path: Path, asked: SurveySpec, measure: Measurement, *, repair: bool) -> None:
+    def __init__(
+        self, path: Path, asked: SurveySpec, measure: Measurement, *, repair: bool, writable: bool
+    ) -> None:
         from rocking.survey.store.chunk_files import Files
 
         self.path, self.measure = path, measure
         self.files = Files(path)
         with defer_interrupt(), wrap_write_errors(path):
-            self.layout, self.root = self._agreed(asked)
+            self.outdated = ""
+            self.finished = "" if writable else "its folder cannot be written"
+            self.layout, self.root, self.bound = self._agreed(asked)
             self.asked = asked.with_axes(self.layout.axes)
             self.levels: list[Level] = self.layout.levels()
-            remove_unfinished(path, [*self.layout.axes, *(each.name for each in measure.variables)])
+            if not self.finished:
+                remove_unfinished(path, [*self.layout.axes, *(each.name for each in measure.variables)])
             self.arrays = self._arranged()
         self.done = 0
-        self.begun: set[tuple[int, tuple[int, ...]]] = set()  # tiles with valid data
+        self.begun: dict[
+            tuple[int, tuple[int, ...]], tuple[int, ...]
+        ] = {}  # computed points of complete tiles
         self.held: dict[int, Arrays] = {}  # small levels other than the finest, by number
         self.check(repair=repair)
+        if self.finished and self.done < self.asked.points:
+            raise StoreError(self.files.refusal)
 
     def known(self, tile: Tile) -> np.ndarray:
         """Return the mask of the computed points of a tile."""
-        if (tile.level.number, tile.index) not in self.begun:
-            return np.zeros(tile.shape, bool)
-        marker = self.measure.marker
-        return self._read(tile.level, marker.name, tile.region) != marker.fill
+        known = np.zeros(tile.shape, bool)
+        if (points := self.begun.get((tile.level.number, tile.index))) is not None:
+            known[tuple(map(slice, points))] = True
+        return known
 
     def read(self, tile: Tile, names: tuple[str, ...] = ()) -> Arrays:
         """Return the results of a tile for the named variables. Default: all variables."""
@@ -88,19 +104,31 @@ class Store:
         level, shared = self.levels[tile.level.number - 1], tile.shared()
         assert shared is not None
         held = self._held(level)
-        if held is None:
-            return {name: self._read(level, name, shared[1]) for name in self.arrays[level.number]}
-        return {name: values[shared[1]] for name, values in held.items()}
+        if held is not None:
+            return {name: values[shared[1]] for name, values in held.items()}
+        found = {name: self._read(level, name, shared[1]) for name in self.arrays[level.number]}
+        for each in self.measure.variables:
+            if (found[each.name] == each.fill).any():
+                raise StoreError(
+                    f"store {str(self.path)!r} lost files during the run (run again to recompute them)"
+                )
+        return found
 
     def write(self, tile: Tile, answers: Arrays) -> None:
-        """Write the results of a tile; the last variable, which marks the tile as complete, is written last."""
+        """Write the results of a tile, at last its digests, which mark it as complete."""
         from rocking.survey.store.chunk_files import encoded
 
         held = self._held(tile.level)
+        chunks = {
+            each.name: encoded(answers[each.name], tile.level.tile, each.fill)
+            for each in self.measure.variables
+        }
+        assert self.bound is not None
         with wrap_write_errors(self.path):
-            for each in self.measure.variables:
-                content = encoded(answers[each.name], tile.level.tile, each.fill)
-                self.files.keep(self._chunk(tile, each.name), content)
+            (self.path / self._digests(tile)).unlink(missing_ok=True)  # no mark while chunks are old and new
+            for name, content in chunks.items():
+                self.files.keep(self._chunk(tile, name), content)
+            self.files.keep(self._digests(tile), tile_digests.digests(self.bound, tile, tile.shape, chunks))
         if held is not None:
             for name, values in answers.items():
                 held[name][tile.region] = values
@@ -118,52 +146,77 @@ class Store:
 
     def dataset(self) -> xr.Dataset:
         """Return the finest level, which is read on access."""
+        self.files.check_place()
         return open_level(self.path, self.levels[-1].number)[[each.name for each in self.measure.variables]]
 
     def check(self, *, repair: bool) -> None:
         """Read all complete tiles; damage raises StoreError or, with `repair`, the tiles are recomputed."""
         found: list[str] = []
         for tile in (tile for level in self.levels for tile in self._marked(level)):
-            known, damaged = self._inspected(tile)
-            found += [repr(str(self.path / self._chunk(tile, name))) for name in damaged]
-            if known.any() and not damaged:
-                self.begun.add((tile.level.number, tile.index))
-                self.done += int(tile.own(known).sum())
+            points, damaged = self._inspected(tile)
+            found += [repr(str(self.path / name)) for name in damaged]
+            if not damaged:
+                self.begun[tile.level.number, tile.index] = points
+                self.done += int(tile.own(self.known(tile)).sum())
         if found and not repair:
             more = f" and {len(found) - MAX_NAMED} more" if len(found) > MAX_NAMED else ""
+            remedy = (
+                "restore these files, or give another folder"
+                if self.finished
+                else "recompute these tiles with repair"
+            )
             raise StoreError(
-                f"store {str(self.path)!r} is damaged at {', '.join(found[:MAX_NAMED])}{more} (recompute these tiles with repair)"
+                f"store {str(self.path)!r} is damaged at {', '.join(found[:MAX_NAMED])}{more} ({remedy})"
             )
 
     def _marked(self, level: Level) -> list[Tile]:
-        """Return the tiles of a level whose marker exists, from a list of the folder instead of a test of each tile."""
-        folder = self.path / self._chunks(level, self.measure.marker.name)
+        """Return the tiles of a level that are marked as complete, from a list of the folder instead of a test of each tile."""
+        marker = self.measure.marker.name
+        folder = self.path / (
+            self._chunks(level, marker)
+            if self.bound is None
+            else f"{level.name}/{marker}/{tile_digests.FOLDER}"
+        )
         found = (path.relative_to(folder).parts for path in folder.glob("/".join("*" * len(level.shape))))
         numbered = (tuple(map(int, parts)) for parts in found if all(map(str.isdecimal, parts)))
-        return [level.at(index) for index in sorted(numbered)]
+        return [
+            level.at(index)
+            for index in sorted(numbered)
+            if all(place < count for place, count in zip(index, level.tile_counts, strict=True))
+        ]
 
-    def _inspected(self, tile: Tile) -> tuple[np.ndarray, list[str]]:
-        """Inspect the chunks of a tile.
+    def _inspected(self, tile: Tile) -> tuple[tuple[int, ...], list[str]]:
+        """Return the computed points of a marked tile, along each axis from its first, and its damaged files."""
+        if self.bound is None:
+            return self._decoded(tile)
+        names = [each.name for each in self.measure.variables]
+        chunks = {name: self.files.kept(self._chunk(tile, name)) or b"" for name in names}
+        try:
+            points, damaged = tile_digests.wrong(
+                self.bound, tile, self.files.kept(self._digests(tile)) or b"", chunks
+            )
+        except ValueError:
+            return (), [self._digests(tile)]
+        return points, [self._chunk(tile, name) for name in damaged]
 
-        Returns
-        -------
-        tuple of (array of bool, list of str)
-            Mask of the computed points, and the variables that are unreadable or incomplete.
-        """
-        marker, known, damaged = self.measure.marker, np.zeros(tile.shape, bool), []
-        for variable in reversed(self.measure.variables):
+    def _decoded(self, tile: Tile) -> tuple[tuple[int, ...], list[str]]:
+        """Return the same as `_inspected` for a store without digests, whose chunks have checksums only."""
+        for each in self.measure.variables:
             try:
-                there = self._read(tile.level, variable.name, tile.region) != variable.fill
+                whole = (self._read(tile.level, each.name, tile.region) != each.fill).all()
+            except MemoryError:
+                raise
             except Exception:  # noqa: BLE001 (a damaged chunk raises many types of error)
-                damaged.append(variable.name)
-                continue
-            if variable is marker:
-                known = there
-                if not known.any():
-                    break
-            elif not there[known].all():
-                damaged.append(variable.name)
-        return known, damaged
+                return (), [self._chunk(tile, each.name)]
+            if not whole:
+                return (0,) * len(tile.shape), []
+        return tile.shape, []
+
+    def _digests(self, tile: Tile) -> str:
+        """Return the path of the digests of a tile, relative to the store."""
+        return "/".join(
+            (tile.level.name, self.measure.marker.name, tile_digests.FOLDER, *map(str, tile.index))
+        )
 
     def _chunk(self, tile: Tile, name: str) -> str:
         """Return the path of the chunk of a tile, relative to the store."""
@@ -176,15 +229,19 @@ class Store:
     def _read(self, level: Level, name: str, region: Slices) -> np.ndarray:
         return np.asarray(self.arrays[level.number][name].get_basic_selection(region))
 
-    def _agreed(self, asked: SurveySpec) -> tuple[Layout, zarr.Group]:
-        """Return the layout of the store and the survey, and the root group; an error if they do not match."""
+    def _agreed(self, asked: SurveySpec) -> tuple[Layout, zarr.Group, bytes | None]:
+        """Return the layout of the store and the survey, the root group and the key of the survey; an error if they do not match.
+
+        The key is None for a store whose tiles have no digests.
+        """
         import zarr
 
         mine = fingerprint(asked, self.measure)
         if not (self.path / ROOT).exists():
             layout = new_layout(asked)
-            metadata = {NAME: mine | described_layout(layout)}
-            return layout, zarr.create_group(self.files, zarr_format=3, attributes=metadata)
+            metadata: dict[str, Any] = {NAME: mine | described_layout(layout)}
+            root = zarr.create_group(self.files, zarr_format=3, attributes=metadata)
+            return layout, root, tile_digests.survey_key(metadata[NAME])
         with reading(self.path):
             root = zarr.open_group(self.files, mode="r+", zarr_format=3, use_consolidated=False)
         stored: Any = root.attrs.get(NAME)
@@ -193,12 +250,19 @@ class Store:
         with reading(self.path):
             check_described(stored)
         check_same(str(self.path), stored, mine)
+        self.outdated = why_finished(stored, mine)
+        self.finished = self.outdated or self.finished
+        if self.finished:
+            self.files.refusal = (
+                f"store {str(self.path)!r} lacks some of these points and cannot be resumed: {self.finished} "
+                "(give another folder; what is there can be read and plotted)"
+            )
         with reading(self.path):
             held = read_layout(stored)
         layout = joined(str(self.path), held, asked)
         if stored | described_layout(layout) != stored:
             root.attrs[NAME] = stored | described_layout(layout)
-        return layout, root
+        return layout, root, tile_digests.survey_key(stored) if stored["format"] == FORMAT else None
 
     def _arranged(self) -> list[dict[str, zarr.Array]]:
         """Return the arrays of each level, created or enlarged as needed."""
@@ -219,15 +283,25 @@ def opened(
     Raises
     ------
     ValueError
-        If the store holds a different survey; the message lists the differences.
+        If the store holds a different survey, whose differences the message lists, or if there are too many points.
     OSError
         If the path is not a folder, or the store holds other data, is in use, cannot be written or is damaged.
     """
+    if asked.points > MAX_POINTS:
+        raise ValueError(
+            f"store must hold {MAX_POINTS:,} points at most; got {asked.points:,} (divide them among several stores)"
+        )
     folder = check_store(path)
-    with wrap_write_errors(folder):
-        folder.resolve().mkdir(parents=True, exist_ok=True)
-    with exclusive_lock(folder):
-        yield Store(folder, asked, measure, repair=repair)
+    place = folder.resolve()
+    if not (place / ROOT).is_file():
+        with wrap_write_errors(folder):
+            place.mkdir(parents=True, exist_ok=True)
+    writable = takes_files(place)
+    with lock(folder, shared=not writable):
+        kept = Store(folder, asked, measure, repair=repair, writable=writable)
+        if kept.outdated:
+            warnings.warn(f"all results are read from store {str(folder)!r}: {kept.outdated}", stacklevel=2)
+        yield kept
 
 
 def open_level(path: Path, number: int) -> xr.Dataset:
@@ -236,4 +310,4 @@ def open_level(path: Path, number: int) -> xr.Dataset:
 
     from rocking.survey.store.chunk_files import Files
 
-    return xr.open_zarr(Files(path), group=f"level-{number}", chunks=None, consolidated=False)
+    return xr.open_zarr(Files(path, read_only=True), group=f"level-{number}", chunks=None, consolidated=False)

@@ -28,7 +28,7 @@ def make_groups(
     metadata = _plain(attributes(asked, measure))
     found = _made(files, {level.name: GroupMetadata(metadata) for level in levels}, there)
     for group in found.values():
-        if group.attrs.asdict() != metadata:
+        if not files.refusal and group.attrs.asdict() != metadata:
             group.attrs.put(metadata)
     return list(found.values())
 
