@@ -103,11 +103,15 @@ class Spectrum:
 
 @frozen(eq=False)
 class Drawn:
-    """Section to draw: single points or an image of their density, the periodic orbit, and the cycles shown."""
+    """Section to draw: single points or an image of their density, the periodic orbit, and the cycles shown.
+
+    `all` holds all points for the table.
+    """
 
     points: Columns
     dense: Columns
     orbit: Columns
+    all: Columns
     ranges: Ranges
     label: str
 
@@ -238,10 +242,11 @@ class Section:
         label = _section_label(omitted, len(self.points), self.ended)
         spans = *_around(points[:, 0]), *_around(points[:, 1])
         orbit = {"angle": last[:MAX_RINGS, 0], "velocity": last[:MAX_RINGS, 1]}
+        everything = {"angle": points[:, 0].copy(), "velocity": points[:, 1].copy()}
         places, first, counts = np.unique(_cells(points, spans), return_index=True, return_counts=True)
         if len(places) <= SINGLE:
             single = {"angle": points[first, 0], "velocity": points[first, 1]}
-            return Drawn(single, no_image(), orbit, spans, label)
+            return Drawn(single, no_image(), orbit, everything, spans, label)
         image = np.zeros(CELLS * CELLS, np.uint8)
         image[places] = np.minimum(1 + np.log2(counts), 8)
         left, right, bottom, top = spans
@@ -252,7 +257,7 @@ class Section:
             "w": [right - left],
             "h": [top - bottom],
         }
-        return Drawn({"angle": [], "velocity": []}, dense, orbit, spans, label)
+        return Drawn({"angle": [], "velocity": []}, dense, orbit, everything, spans, label)
 
     def _omitted(self) -> int:
         """Return the number of cycles omitted as transient: a tenth of all, at least `TRANSIENT`, at most nine tenths.

@@ -123,7 +123,7 @@ function point(name, event) {
   const box = view?.el.getBoundingClientRect(), inner = view?.frame?.bbox;
   if (!inner) return;
   const across = (event.clientX - box.left - inner.left) / inner.width, up = 1 - (event.clientY - box.top - inner.top) / inner.height;
-  const source = answers, side = Math.round(Math.sqrt(source.look?.length ?? 0));
+  const source = answers.map ?? {}, side = Math.round(Math.sqrt(source.look?.length ?? 0));
   if (!side || across < 0 || across > 1 || up < 0 || up > 1) return;
   const { x_range, y_range } = models.map, [left, right, bottom, top] = shown.planes.map.ranges;
   const x = x_range.start + across * (x_range.end - x_range.start), y = y_range.start + up * (y_range.end - y_range.start);
@@ -230,36 +230,30 @@ find("metres").addEventListener("submit", event => {
 find("no-metres").onclick = () => { ask("fields", { height: "", width: "" }); };
 // ---- files
 
+// Columns of a figure; undefined if it is not computed yet.
 function table(name) {
-  const columns = {}, quote = value => (typeof value === "string" ? `"${value.replaceAll('"', '""')}"` : value);
-  if (name === "map") {
-    const source = answers, side = Math.round(Math.sqrt(source.look.length)), [left, right, bottom, top] = shown.planes.map.ranges, [baseX, baseY] = shown.planes.map.base;
-    const at = (low, high, place) => low + (high - low) * place / (side - 1);
-    columns.period = Array.from(source.look, (_, n) => baseX + at(left, right, n % side));
-    columns.amplitude = Array.from(source.look, (_, n) => baseY + at(bottom, top, Math.floor(n / side)));
-    columns.response = Array.from(source.look, look => given.looks[look] ?? "");
-    columns.response_period = source.response_period;
-    columns.evidence = Array.from(source.evidence, ground => given.grounds[ground]);
-    columns.exponent = source.exponent;
-  } else {
-    for (const renderer of models[name].renderers) {
-      const columnsOf = parts(renderer.data_source.data);
-      if (name === "basin" && !columnsOf.some(([key]) => key === "image")) continue;
-      for (const [key, values] of columnsOf) if (!(key in columns) && values.length && typeof values[0] !== "object") columns[key] = values;
-      if (Object.keys(columns).length) break;
-    }
-  }
-  const names = Object.keys(columns), lines = [names.join(",")];
-  for (let n = 0; n < (columns[names[0]]?.length ?? 0); n++) lines.push(names.map(key => quote(columns[key][n])).join(","));
-  return lines.join("\n") + "\n";
+  if (name === "map") return grid(name, "period", "amplitude");
+  if (name === "basin") return grid(name, "angle", "velocity");
+  if (name === "section") return answers.section;
+  const renderer = models[name].renderers[0];
+  return Object.fromEntries(parts(renderer.data_source.data));
 }
 
-for (const button of all("[data-save]")) button.onclick = async () => {
-  const name = find("which").value, kind = button.dataset.save;
-  if (kind === "csv") return save(name, new Blob([table(name)], { type: "text/csv" }), kind);
-  const view = Bokeh.index.find_one(models[name]);
-  save(name, await view.export(kind, true).to_blob(), kind);
-};
+function grid(name, across, up) {
+  const source = answers[name];
+  if (!source) return;
+  const side = Math.round(Math.sqrt(source.look.length)), [left, right, bottom, top] = shown.planes[name].ranges, [baseX, baseY] = shown.planes[name].base;
+  const at = (low, high, place) => low + (high - low) * place / (side - 1);
+  return {
+    [across]: Array.from(source.look, (_, n) => baseX + at(left, right, n % side)),
+    [up]: Array.from(source.look, (_, n) => baseY + at(bottom, top, Math.floor(n / side))),
+    response: Array.from(source.look, look => given.looks[look] ?? ""),
+    response_period: source.response_period,
+    evidence: Array.from(source.evidence, ground => given.grounds[ground]),
+    exponent: source.exponent,
+    ...(name === "basin" && { orbit: source.orbit }),
+  };
+}
 
 // ---- the block
 

@@ -119,6 +119,7 @@ def answers(picture: Picture) -> dict[str, np.ndarray]:
         "look": picture.look.ravel(),
         "evidence": kept["evidence"].ravel(),
         "exponent": kept["exponent"].astype(np.float32).ravel(),
+        "orbit": kept["orbit"].ravel(),
     }
 
 

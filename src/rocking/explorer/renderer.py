@@ -118,10 +118,8 @@ class SessionRenderer(DocumentRenderer):
             await self._draw(partial(self._draw_map, shown, finer))
 
     def _draw_map(self, shown: ViewState, picture: Picture) -> None:
-        drawn = {"image": plane_axes.image(picture, self.corner, shown.periods, shown.amplitudes)}
-        if picture.settled == picture.of:
-            drawn["answers"] = plane_axes.answers(picture)
-        self.link.draw(map=drawn)
+        image = plane_axes.image(picture, self.corner, shown.periods, shown.amplitudes)
+        self.link.draw(map=_with_answers({"image": image}, picture))
         self.link.send("legend", {"legend": texts.legend(picture.counts().sum(axis=0))})
         self.link.send("progress", texts.progress(picture))
 
@@ -249,7 +247,9 @@ class SessionRenderer(DocumentRenderer):
             await self._draw(partial(self._draw_basin, shown, picture))
 
     def _basin(self, shown: ViewState, picture: Picture) -> dict[str, Any]:
-        return {"image": plane_axes.image(picture, self.basin_corner, shown.angles, shown.velocities)}
+        return _with_answers(
+            {"image": plane_axes.image(picture, self.basin_corner, shown.angles, shown.velocities)}, picture
+        )
 
     def _draw_basin(self, shown: ViewState, picture: Picture) -> None:
         self.link.draw(basin=self._basin(shown, picture))
@@ -270,6 +270,11 @@ class SessionRenderer(DocumentRenderer):
         await self._draw(partial(self.link.draw, diagram=drawn))
 
 
+def _with_answers(drawn: dict[str, Any], picture: Picture) -> dict[str, Any]:
+    """Add the results of a map for the readout and the table, if all its points are classified."""
+    return drawn | {"answers": plane_axes.answers(picture)} if picture.settled == picture.of else drawn
+
+
 def _drawn_section(drawn: figure_data.Drawn) -> dict[str, Any]:
-    columns = {"points": drawn.points, "dense": drawn.dense, "orbit": drawn.orbit}
+    columns = {"points": drawn.points, "dense": drawn.dense, "orbit": drawn.orbit, "answers": drawn.all}
     return {"ranges": drawn.ranges, "label": drawn.label, **columns}

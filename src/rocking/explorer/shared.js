@@ -51,7 +51,7 @@ find("redo").onclick = () => history.forward();
 // ---- contents of the figures
 
 const parts = told => (told instanceof Map ? [...told] : Object.entries(told));
-let answers = {}; // results at each point of the map
+let answers = {}; // results of a figure that are not drawn, by its name: at each point of a map, and all points of a section
 
 function draw(drawn) {
   for (const [name, told] of parts(drawn)) {
@@ -63,7 +63,7 @@ function draw(drawn) {
 
 function fill(name, part, value) {
   const figure = models[name], change = (model, to) => model.setv(to, { sync: false });
-  if (part === "answers") answers = Object.fromEntries(parts(value));
+  if (part === "answers") answers[name] = Object.fromEntries(parts(value));
   else if (part === "why") find(name).dataset.why = value;
   else if (part === "label") change(figure.below[0], { axis_label: value });
   else if (["here", "above", "below"].includes(part)) change(figure.center.find(each => each.name === part), { location: value });
@@ -132,6 +132,21 @@ for (const button of all("[data-copy]")) button.onclick = async () => {
 };
 
 // ---- files
+
+// Lines of a table, given by its columns.
+function lines(columns) {
+  const names = Object.keys(columns), quote = value => (typeof value === "string" ? `"${value.replaceAll('"', '""')}"` : value);
+  const rows = Array.from(columns[names[0]], (_, n) => names.map(key => quote(columns[key][n])).join(","));
+  return [names.join(","), ...rows, ""].join("\n");
+}
+
+for (const button of all("[data-save]")) button.onclick = async () => {
+  const name = find("which").value, kind = button.dataset.save;
+  if (kind !== "csv") return save(name, await Bokeh.index.find_one(models[name]).export(kind, true).to_blob(), kind);
+  const columns = table(name);
+  if (columns) save(name, new Blob([lines(columns)], { type: "text/csv" }), kind);
+  else say("The figure is not computed yet: save it when it is.");
+};
 
 function save(name, blob, suffix) {
   const anchor = document.createElement("a");

@@ -140,7 +140,7 @@ find("whole").onclick = () => ask("fields", { sizes: "0.2:10", angles: "3:30" })
 // Point of the grid of answers under the pointer.
 function point(event) {
   const view = Bokeh.index.find_one(models.map), box = view?.el.getBoundingClientRect(), inner = view?.frame?.bbox;
-  const side = Math.round(Math.sqrt(answers.outcome?.length ?? 0));
+  const side = Math.round(Math.sqrt(answers.map?.outcome.length ?? 0));
   if (!inner || !side || !shown) return;
   const across = (event.clientX - box.left - inner.left) / inner.width, up = 1 - (event.clientY - box.top - inner.top) / inner.height;
   if (across < 0 || across > 1 || up < 0 || up > 1) return;
@@ -150,8 +150,8 @@ function point(event) {
 function block(at, side) {
   const [left, right] = shown.sizes, [low, high] = shown.angles;
   const size = left * (right / left) ** (at % side / (side - 1)), angle = low + (high - low) * Math.floor(at / side) / (side - 1), radians = angle * Math.PI / 180;
-  const overturns = answers.outcome[at] === 2, peak = answers.peak[at];
-  return { size, angle, height: 2 * size * Math.cos(radians), width: 2 * size * Math.sin(radians), peak, margin: answers.margin[at], certified: answers.certified[at],
+  const overturns = answers.map.outcome[at] === 2, peak = answers.map.peak[at];
+  return { size, angle, height: 2 * size * Math.cos(radians), width: 2 * size * Math.sin(radians), peak, margin: answers.map.margin[at], certified: answers.map.certified[at],
     outcome: overturns ? "overturns" : peak > 0 ? "rocks and stands" : "stands still" };
 }
 
@@ -235,23 +235,15 @@ function scene() {
 
 // ---- export
 
+// Columns of a figure; undefined if it is not computed yet.
 function table(name) {
-  const columns = {};
-  if (name === "map") {
-    const side = Math.round(Math.sqrt(answers.outcome.length)), points = Array.from(answers.outcome, (_, at) => block(at, side));
-    const names = { size_m: "size", critical_angle_deg: "angle", height_m: "height", width_m: "width", outcome: "outcome", peak: "peak", margin: "margin", certified: "certified" };
-    for (const [title, key] of Object.entries(names)) columns[title] = points.map(each => each[key]);
-  } else for (const [key, values] of parts(models[name].renderers[0].data_source.data)) columns[key] = values;
-  const names = Object.keys(columns), lines = [names.join(",")];
-  for (let n = 0; n < (columns[names[0]]?.length ?? 0); n++) lines.push(names.map(key => columns[key][n]).join(","));
-  return lines.join("\n") + "\n";
+  if (name !== "map") return Object.fromEntries(parts(models[name].renderers[0].data_source.data));
+  if (!answers.map) return;
+  const side = Math.round(Math.sqrt(answers.map.outcome.length)), points = Array.from(answers.map.outcome, (_, at) => block(at, side));
+  const names = { size_m: "size", critical_angle_deg: "angle", height_m: "height", width_m: "width", outcome: "outcome", peak: "peak", margin: "margin", certified: "certified" };
+  return Object.fromEntries(Object.entries(names).map(([title, key]) => [title, points.map(each => each[key])]));
 }
 
-for (const button of all("[data-save]")) button.onclick = async () => {
-  const name = find("which").value, kind = button.dataset.save;
-  if (kind === "csv") return save(name, new Blob([table(name)], { type: "text/csv" }), kind);
-  save(name, await Bokeh.index.find_one(models[name]).export(kind, true).to_blob(), kind);
-};
 find("netcdf").onclick = () => ask("save", {});
 
 function keep(saved) {
