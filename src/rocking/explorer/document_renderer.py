@@ -1,10 +1,11 @@
-"""Jobs that change the document of one session, in its event loop."""
+"""Jobs and requests that change the document of one session, in the event loop of the server."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import TypeVar
 
 import numpy as np
 from bokeh.document import Document
@@ -13,6 +14,7 @@ from rocking.explorer.compilation import Compilation
 from rocking.explorer.page_channel import Link
 from rocking.explorer.worker_pools import Jobs, Workers
 
+Value = TypeVar("Value")
 BREATH = 0.2
 """Pause between two steps of a refinement, s, so that the page can repaint."""
 
@@ -32,11 +34,26 @@ class DocumentRenderer:
         self.needed = needed
         self.jobs = Jobs()
 
+    def in_turn(self, act: Callable[[Value], None]) -> Callable[[Value], None]:
+        """Return a function that calls `act` later, in the event loop, with the lock of the document held.
+
+        From version 3.10 on, Bokeh calls plain functions on threads of its own, which must not start jobs. It awaits
+        coroutines in the event loop.
+        """
+
+        def later(given: Value) -> None:
+            async def acting() -> None:
+                act(given)
+
+            self.document.add_next_tick_callback(acting)
+
+        return later
+
     async def _draw(self, change: Callable[[], None]) -> None:
-        """Change the document in its event loop, with its lock held."""
+        """Change the document in the event loop, with its lock held."""
         done = asyncio.get_running_loop().create_future()
 
-        def act() -> None:
+        async def act() -> None:  # a coroutine for the reason given in `in_turn`
             if self._alone():
                 self.jobs.end_all()
             if done.cancelled():

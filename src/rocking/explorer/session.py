@@ -30,10 +30,12 @@ class Session:
         self.link = Link(name="link")
         self.painter = SessionRenderer(document, self.link, workers, compilation)
         self.shown, self.opened = DEFAULT, False
-        self.link.on_change("asked", lambda _name, _before, text: self.hear(text))
-        self.painter.map.on_event(Tap, self._tapped_map)
-        self.painter.basin.on_event(Tap, self._tapped_basin)
-        self.painter.diagram.on_event(Tap, self._tapped_diagram)
+        in_turn = self.painter.in_turn
+        hear = in_turn(self.hear)
+        self.link.on_change("asked", lambda _name, _before, text: hear(text))
+        self.painter.map.on_event(Tap, in_turn(self._tapped_map))
+        self.painter.basin.on_event(Tap, in_turn(self._tapped_basin))
+        self.painter.diagram.on_event(Tap, in_turn(self._tapped_diagram))
         self.painter.attach()
         document.on_session_destroyed(lambda _context: self.painter.jobs.end_all())
 

@@ -42,9 +42,11 @@ class GroundSession:
         self.file: tuple[str, bytes] | None = None
         self.pending: GroundView | None = None  # view of the file, until it is read
         self.channels: tuple[GroundMotion, ...] = ()
-        self.link.on_change("asked", lambda _name, _before, text: self.hear(text))
-        self.link.on_change("file", lambda _name, _before, given: self.receive(given))
-        self.renderer.map.on_event(Tap, self._tapped)
+        in_turn = self.renderer.in_turn
+        hear, receive = in_turn(self.hear), in_turn(self.receive)
+        self.link.on_change("asked", lambda _name, _before, text: hear(text))
+        self.link.on_change("file", lambda _name, _before, given: receive(given))
+        self.renderer.map.on_event(Tap, in_turn(self._tapped))
         self.renderer.attach()
         document.on_session_destroyed(lambda _context: self.renderer.jobs.end_all())
 
