@@ -1,8 +1,8 @@
 """A real browser and the page's server, each in a separate process; screenshots go into `results`."""
 
-import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import urlsplit
@@ -27,8 +27,18 @@ def pytest_collection_modifyitems(items):
 class Running(NamedTuple):
     """The explorer in a separate process."""
 
-    address: str
+    link: str
     process: subprocess.Popen
+
+    @property
+    def address(self):
+        return self.link.partition("?")[0]
+
+    @property
+    def cookie(self):
+        """Headers of its user."""
+        token = self.link.partition("token=")[2]
+        return {"Cookie": f"rocking-{urlsplit(self.link).port}={token}"}
 
 
 @pytest.fixture(scope="session")
@@ -38,17 +48,11 @@ def running():
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
             line = process.stdout.readline()
-            yield Running(re.search(r"http://localhost:\d+/", line)[0], process)
+            yield Running(line.split()[0], process)
         finally:
             process.terminate()
             errors = process.communicate()[1]
     assert "Traceback" not in errors
-
-
-@pytest.fixture(scope="session")
-def server(running):
-    """Address of a running explorer."""
-    return running.address
 
 
 @pytest.fixture(scope="session")
@@ -62,8 +66,8 @@ def browser():
 class Visitor:
     """Page with the errors that it logged and the hosts that it contacted."""
 
-    def __init__(self, context, address):
-        self.address, self.complaints, self.hosts = address, [], set()
+    def __init__(self, context, running):
+        self.running, self.complaints, self.hosts = running, [], set()
         self.page = context.new_page()
         self.page.set_default_timeout(PATIENCE)
         self.page.on("console", self._heard)
@@ -76,7 +80,9 @@ class Visitor:
             self.complaints.append(message.text)
 
     def open(self, query=""):
-        self.page.goto(self.address + query)
+        """Open an address with the token, as the user does."""
+        token = self.running.link.partition("?")[2]
+        self.page.goto(f"{self.running.address}{query}{'&' if '?' in query else '?'}{token}")
         self.page.wait_for_selector("body[data-ready]")
         self.judged()
 
@@ -86,7 +92,14 @@ class Visitor:
 
     def finished(self):
         """Wait until the map is complete."""
-        self.page.wait_for_function("document.body.dataset.map === 'done'")
+        self.until("document.body.dataset.map === 'done'")
+
+    def until(self, condition, arg=None):
+        """Wait until a condition holds. Playwright's own function does it with `eval`, which the pages forbid."""
+        last = time.monotonic() + PATIENCE / 1000
+        while not self.page.evaluate(condition, arg):
+            assert time.monotonic() < last, condition
+            self.page.wait_for_timeout(20)
 
     def text(self, name):
         return self.page.inner_text(f"#{name}")
@@ -130,13 +143,13 @@ class Visitor:
 
 
 @pytest.fixture
-def visit(browser, server):
+def visit(browser, running):
     """Open the page in a new session with the given width, height and colour scheme."""
     contexts = []
 
     def come(width=1280, height=800, scheme="light"):
         contexts.append(browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme))
-        return Visitor(contexts[-1], server)
+        return Visitor(contexts[-1], running)
 
     yield come
     for context in contexts:

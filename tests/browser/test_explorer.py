@@ -40,7 +40,7 @@ def test_click_changes_every_picture(visit):
     visitor.open()
     before = {name: visitor.data(name) for name in PICTURES}
     visitor.click("map", 0.2, 0.9)
-    visitor.page.wait_for_function("document.getElementById('undo').disabled === false")
+    visitor.until("document.getElementById('undo').disabled === false")
     visitor.judged()
     assert [name for name in PICTURES if visitor.data(name) == before[name]] == []
     typed = [visitor.page.input_value(f"#{name}") for name in ("amplitude", "period")]
@@ -58,7 +58,7 @@ def test_numbers_typed_give_the_known_verdict(visit, case):
     for name, value in (("amplitude", amplitude), ("period", period), ("restitution", restitution)):
         visitor.page.fill(f"#{name}", str(value))
         visitor.page.press(f"#{name}", "Enter")
-    visitor.page.wait_for_function(
+    visitor.until(
         f"location.search === '?version=1&amplitude={amplitude:g}&period={period:g}&restitution={restitution:g}'"
     )
     visitor.judged()
@@ -83,7 +83,7 @@ def test_zooming_to_the_overturning_boundary_shows_new_detail(visit):
     for _ in range(3):
         view = visitor.page.url
         visitor.wheel("map", 0.4, 0.25, -240)
-        visitor.page.wait_for_function("view => location.href !== view", arg=view)
+        visitor.until("view => location.href !== view", arg=view)
         visitor.finished()
     after, (left, bottom, width, height) = picture_of(visitor)
     assert width < wide / 2
@@ -126,7 +126,7 @@ def test_case_of_the_paper_shows_its_figure(visit):
     visitor.page.click("text=Gallery")
     visitor.see("gallery")
     visitor.page.click("[data-case=figure-2b]")
-    visitor.page.wait_for_function("location.search.includes('first=600')")
+    visitor.until("location.search.includes('first=600')")
     visitor.judged()
     assert "3 cycles, symmetric" in visitor.text("facts")
     columns = dict(json.loads(visitor.data("history"))[0])
@@ -145,23 +145,23 @@ def test_shared_link_gives_the_same_view_and_back_the_one_before(visit):
     one.open()
     one.page.fill("#amplitude", "6.5")
     one.page.press("#amplitude", "Enter")
-    one.page.wait_for_function("location.search.includes('amplitude=6.5')")
+    one.until("location.search.includes('amplitude=6.5')")
     one.page.click("text=Melnikov")
-    one.page.wait_for_function("location.search.includes('curves=melnikov')")
+    one.until("location.search.includes('curves=melnikov')")
     one.judged()
     one.finished()
-    other.open(one.page.url.removeprefix(one.address))
+    other.open(one.page.url.removeprefix(one.running.address))
     other.finished()
     assert other.text("evidence") == one.text("evidence")
     for name in ("map", "history", "portrait"):
         assert other.data(name) == one.data(name)
     one.page.go_back()
-    one.page.wait_for_function("!location.search.includes('curves')")
+    one.until("!location.search.includes('curves')")
     one.page.go_back()
-    one.page.wait_for_function("location.search.includes('amplitude=2&')")
-    one.page.wait_for_function("document.getElementById('amplitude').value === '2'")
+    one.until("location.search.includes('amplitude=2&')")
+    one.until("document.getElementById('amplitude').value === '2'")
     one.page.click("#redo")
-    one.page.wait_for_function("location.search.includes('amplitude=6.5')")
+    one.until("location.search.includes('amplitude=6.5')")
     one.judged()
     one.is_content()
     other.is_content()
@@ -203,7 +203,7 @@ NAMED = (
 def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit, width, height, scheme):
     visitor = visit(width, height, scheme)
     visitor.open("?version=1&amplitude=14&period=1.35&restitution=0.925")
-    visitor.page.wait_for_function(f"{NAMED} === 'overturned; {LOOKS[2].name}; another orbit'")
+    visitor.until(f"{NAMED} === 'overturned; {LOOKS[2].name}; another orbit'")
     shares = re.findall(r"([\d.]+) %", visitor.text("attractors"))
     assert sum(map(float, shares)) == pytest.approx(100, abs=0.2)
     colours = visitor.page.evaluate(
@@ -218,7 +218,7 @@ def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit, width, 
     visitor.see(f"twins-{width}-{scheme}")
     visitor.page.fill("#amplitude", "2")
     visitor.page.press("#amplitude", "Enter")
-    visitor.page.wait_for_function(f"!{NAMED}.includes('another')")
+    visitor.until(f"!{NAMED}.includes('another')")
     visitor.is_content()
 
 
@@ -229,7 +229,7 @@ def test_two_visitors_do_not_disturb_each_other(visit):
     one.click("map", 0.3, 0.5)
     other.click("map", 0.7, 0.9)
     for visitor in (one, other):
-        visitor.page.wait_for_function("document.getElementById('undo').disabled === false")
+        visitor.until("document.getElementById('undo').disabled === false")
         visitor.judged()
         visitor.finished()
     assert "restitution=0.925" in one.page.url
@@ -247,7 +247,7 @@ def test_block_in_metres_stands_on_the_map_with_axes_in_si(visit):
         visitor.page.fill(f"#m-{name}", text)
     visitor.page.select_option("#metres [name=unit]", "g")
     visitor.page.click("text=Show this block")
-    visitor.page.wait_for_function("location.search.includes('height=2')")
+    visitor.until("location.search.includes('height=2')")
     assert not visitor.page.is_visible("#units"), "what it asked for is seen"
     visitor.judged()
     visitor.finished()
@@ -295,7 +295,7 @@ def test_what_a_block_in_metres_lacks_is_asked_for_without_covering_anything(vis
     visitor.page.fill("#m-width", "0.5")
     visitor.page.click("text=Show this block")
     visitor.page.wait_for_selector("#units", state="hidden")
-    visitor.page.wait_for_function("location.search.includes('width=0.5')")
+    visitor.until("location.search.includes('width=0.5')")
     visitor.is_content()
 
 
@@ -332,7 +332,7 @@ def test_critical_angle_selects_the_full_block(visit):
     assert visitor.page.is_enabled("#curves input[name=melnikov]")
     visitor.page.fill("#critical_angle", "0.25")
     visitor.page.press("#critical_angle", "Enter")
-    visitor.page.wait_for_function("location.search.includes('critical_angle=0.25')")
+    visitor.until("location.search.includes('critical_angle=0.25')")
     visitor.judged()
     assert visitor.data("history") != before
     assert not visitor.page.is_enabled("#curves input[name=melnikov]")
@@ -395,7 +395,7 @@ def test_each_figure_is_saved_in_each_format(visit, tmp_path, page, scheme):
     visitor = visit(scheme=scheme)
     visitor.open(page)
     visitor.finished()
-    visitor.page.wait_for_function("!models.basin || answers.basin")
+    visitor.until("!models.basin || answers.basin")
     visitor.page.click("[data-opens=take]")
     offered = visitor.page.eval_on_selector_all("#which option", "options => options.map(each => each.value)")
     assert offered == list(PAGES[page])
@@ -442,7 +442,7 @@ def test_section_grows_to_a_hundred_thousand_points(visit):
     visitor.open("?version=1&amplitude=10.103037&period=1.721328&restitution=0.8")
     label = "Bokeh.documents[0].get_model_by_name('section').below[0].axis_label"
     first = int(visitor.page.evaluate(label).partition("–")[2].replace(",", ""))
-    visitor.page.wait_for_function(f"{label} === 'angle Θ, cycles 10,001–100,000'")
+    visitor.until(f"{label} === 'angle Θ, cycles 10,001–100,000'")
     assert first < 100_000
     visitor.see("chaotic")
     visitor.is_content()

@@ -39,7 +39,7 @@ def settled(visitor, act):
     """Act, and wait until the address has changed and the new motion is there."""
     before = visitor.page.url
     act()
-    visitor.page.wait_for_function("before => location.href !== before", arg=before)
+    visitor.until("before => location.href !== before", arg=before)
     visitor.judged()
 
 
@@ -96,7 +96,7 @@ def test_point_of_the_map_tells_the_block_under_the_pointer(ground):
     visitor = ground()
     visitor.finished()
     visitor.page.mouse.move(*visitor.place("map", 0.3, 0.1))
-    visitor.page.wait_for_function("document.getElementById('readout').textContent.startsWith('Height')")
+    visitor.until("document.getElementById('readout').textContent.startsWith('Height')")
     size, angle = 0.2 * 50**0.3, math.radians(5.7)
     height = float(re.search(r"Height ([\d.]+) m", visitor.text("readout"))[1])
     assert height == pytest.approx(2 * size * math.cos(angle), rel=0.02)
@@ -111,7 +111,7 @@ def test_slider_scales_the_motion_and_the_map(ground):
         """() => { const slider = document.getElementById('slider'); slider.value = 300;
                  slider.dispatchEvent(new Event('input')); slider.dispatchEvent(new Event('change')); }"""
     )
-    visitor.page.wait_for_function("!location.search.includes('scale=5&')")
+    visitor.until("!location.search.includes('scale=5&')")
     visitor.finished()
     scale = float(re.search(r"scale=([\d.]+)", visitor.page.url)[1])
     assert scale == pytest.approx(0.1 * 200**0.3, rel=0.01)
@@ -163,7 +163,7 @@ def test_file_is_read_shown_and_not_part_of_the_link(ground):
     visitor.see("ground-file")
     visitor.page.reload()
     visitor.page.wait_for_selector("body[data-ready]")
-    visitor.page.wait_for_function("document.getElementById('file-refused').textContent !== ''")
+    visitor.until("document.getElementById('file-refused').textContent !== ''")
     assert "not part of the link" in visitor.text("file-refused")
     visitor.is_content()
 
@@ -189,11 +189,11 @@ def test_file_may_be_dropped_on_the_page(ground):
 def test_file_without_units_asks_for_them(ground):
     visitor = ground(width=360, height=740)
     drop(visitor, "bare.txt", "\n".join(f"{value:.5f}" for value in np.sin(np.arange(300) / 9)).encode())
-    visitor.page.wait_for_function("document.getElementById('file-refused').textContent !== ''")
+    visitor.until("document.getElementById('file-refused').textContent !== ''")
     assert "the file does not state the unit of its samples" in visitor.text("file-refused")
     visitor.see("ground-units")
     visitor.page.select_option("#units-of-file", "m/s²")
-    visitor.page.wait_for_function("document.getElementById('file-refused').textContent.includes('step')")
+    visitor.until("document.getElementById('file-refused').textContent.includes('step')")
     visitor.page.fill("#step", "0.02")
     settled(visitor, lambda: visitor.page.press("#step", "Enter"))
     assert visitor.text("file-refused") == ""
@@ -204,7 +204,7 @@ def test_file_without_units_asks_for_them(ground):
 def test_file_that_is_no_record_is_refused_in_one_line(ground):
     visitor = ground()
     drop(visitor, "letter.txt", b"some words\nin a letter\n")
-    visitor.page.wait_for_function("document.getElementById('file-refused').textContent !== ''")
+    visitor.until("document.getElementById('file-refused').textContent !== ''")
     assert visitor.text("file-refused").startswith("letter.txt: no known text format")
     assert visitor.text("kind") == "rocks and stands"
 
@@ -212,7 +212,7 @@ def test_file_that_is_no_record_is_refused_in_one_line(ground):
 def test_file_above_the_limit_is_not_sent(ground):
     visitor = ground()
     visitor.page.evaluate("() => give(new File([new Uint8Array(50_000_001)], 'big.at2'))")
-    visitor.page.wait_for_function("document.getElementById('file-refused').textContent !== ''")
+    visitor.until("document.getElementById('file-refused').textContent !== ''")
     assert visitor.text("file-refused") == "big.at2: larger than 50 MB"
     assert visitor.page.evaluate("link.file") is None
 
@@ -225,7 +225,7 @@ def test_largest_file_arrives(ground):
                  bytes.set(new TextEncoder().encode('time (s), acceleration (g)\\n0, 0\\n0.5, 0.3\\n1, 0\\n'));
                  return give(new File([bytes], 'largest.csv')); }"""
     )
-    visitor.page.wait_for_function(
+    visitor.until(
         "location.search.includes('source=file') || document.getElementById('file-refused').textContent"
     )
     assert visitor.text("file-refused") == ""
@@ -241,7 +241,7 @@ def test_link_gives_the_same_view_and_undo_the_one_before(ground):
     other = ground("?" + link.partition("?")[2])
     assert (other.page.url, other.text("facts")) == (link, kind)
     visitor.page.click("#undo")
-    visitor.page.wait_for_function("document.getElementById('height').value === '2'")
+    visitor.until("document.getElementById('height').value === '2'")
     assert "height=2&width=0.5" in visitor.page.url
 
 
@@ -274,8 +274,10 @@ def test_map_is_saved_alike_in_both_formats(ground, tmp_path):
     visitor.is_content()
 
 
-def test_page_answers_only_on_this_machine(server):
-    request = urllib.request.Request(server + "ground-motion", headers={"Host": "evil.com"})
+def test_page_answers_only_on_this_machine(running):
+    request = urllib.request.Request(
+        running.address + "ground-motion", headers=running.cookie | {"Host": "evil.com"}
+    )
     with pytest.raises(urllib.error.HTTPError) as caught:
         urllib.request.urlopen(request)
     assert caught.value.code == 403

@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import psutil
 import pytest
-from tornado.httpclient import AsyncHTTPClient, HTTPClientError
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
 from rocking.survey import cores
@@ -27,13 +27,12 @@ def run(coroutine):
         return pool.submit(asyncio.run, coroutine).result()
 
 
-async def opened(address):
+async def opened(running):
     """Load a page and open its connection; return the connection and the number of its `link`."""
-    page = await AsyncHTTPClient().fetch(address)
+    page = await AsyncHTTPClient().fetch(running.address, headers=running.cookie)
     token = re.search(rb'"token":"([^"]+)"', page.body)[1].decode()
-    connection = await websocket_connect(
-        address.replace("http", "ws") + "ws", subprotocols=["bokeh", token], max_message_size=2**28
-    )
+    request = HTTPRequest(running.address.replace("http", "ws") + "ws", headers=running.cookie)
+    connection = await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**28)
     await frames(connection, 3)  # the greeting
     await send(connection, "PULL-DOC-REQ", {})
     link = None
@@ -60,24 +59,24 @@ async def ask(connection, link, text):
     await send(connection, "PATCH-DOC", {"events": [change]})
 
 
-async def begun(address, number):
+async def begun(running, number):
     """Open a session that computes its own map; return its connection."""
-    connection, link = await opened(address)
+    connection, link = await opened(running)
     view = f"version=1&amplitude={2 + number % 9}&period=1&restitution=1"
     await ask(connection, link, json.dumps({"what": "open", "fields": {"address": view}}))
     return connection
 
 
-async def drop_many(address, count):
+async def drop_many(running, count):
     """Open ``count`` sessions and drop each immediately."""
     for number in range(count):
-        (await begun(address, number)).close()
+        (await begun(running, number)).close()
     await asyncio.sleep(FORGOTTEN)
 
 
-async def watch_together(address, server):
+async def watch_together(running, server):
     """Open more sessions than threads for maps and wait for all of them: every thread is used."""
-    connections = [await begun(address, number) for number in range(2 * cores())]
+    connections = [await begun(running, number) for number in range(2 * cores())]
     watching = [asyncio.create_task(frames(each, sys.maxsize)) for each in connections]
     rested = await comes_to_rest(server)
     for each in watching:
@@ -103,11 +102,11 @@ def test_visits_opened_and_dropped_leave_nothing_behind(running):
     server = psutil.Process(running.process.pid)
     threads = server.num_threads() + 2 * cores() + 1  # both pools, and one that a diagram has for a moment
     # Every thread has the memory that it keeps: a map's working memory, of some 10⁷ bytes, stays with its thread.
-    assert run(watch_together(running.address, server))
-    run(drop_many(running.address, VISITS // 2))
+    assert run(watch_together(running, server))
+    run(drop_many(running, VISITS // 2))
     assert run(comes_to_rest(server))
     memory = server.memory_info().rss
-    run(drop_many(running.address, VISITS))
+    run(drop_many(running, VISITS))
     assert server.num_threads() <= threads
     assert run(comes_to_rest(server)), "the server goes on computing for nobody"
     # at rest, because a map under way uses additional memory
@@ -131,7 +130,7 @@ STRANGE = [
 
 def test_messages_of_a_stranger_are_refused_and_the_server_goes_on(running):
     async def talk():
-        connection, link = await opened(running.address)
+        connection, link = await opened(running)
         for text in STRANGE:
             await ask(connection, link, text)
         noise = random.Random(5)
@@ -167,12 +166,11 @@ def test_messages_of_a_stranger_are_refused_and_the_server_goes_on(running):
 
 def test_another_origin_gets_no_connection_and_no_other_address_an_answer(running):
     async def intrude():
-        page = await AsyncHTTPClient().fetch(running.address)
+        page = await AsyncHTTPClient().fetch(running.address, headers=running.cookie)
         token = re.search(rb'"token":"([^"]+)"', page.body)[1].decode()
-        from tornado.httpclient import HTTPRequest
-
         request = HTTPRequest(
-            running.address.replace("http", "ws") + "ws", headers={"Origin": "http://example.org"}
+            running.address.replace("http", "ws") + "ws",
+            headers=running.cookie | {"Origin": "http://example.org"},
         )
         with pytest.raises(HTTPClientError, match="403"):
             await websocket_connect(request, subprotocols=["bokeh", token])

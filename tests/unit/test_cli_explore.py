@@ -1,9 +1,15 @@
 """`rocking explore`: errors before the server starts, and its end. tests/browser tests the page."""
 
+import os
+import re
 import signal
 import socket
+import stat
 import subprocess
 import sys
+import time
+from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 
@@ -32,3 +38,23 @@ def test_control_c_ends_what_is_served_quietly_and_is_no_failure():
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=60)
     assert (process.returncode, out, err) == (0, "", "")
+
+
+def test_browser_is_started_without_the_token_in_its_arguments_which_all_users_see(tmp_path):
+    told, browser = tmp_path / "told", tmp_path / "browser"
+    browser.write_text(f'#!/bin/sh\necho "$@" > {told}.partial\nmv {told}.partial {told}\n')
+    browser.chmod(0o700)
+    command = [sys.executable, "-m", "rocking", "explore", "--port", "0"]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, text=True, env=os.environ | {"BROWSER": f"{browser} %s"}
+    ) as process:
+        link = re.match(r"http://localhost:\d+/\?token=[\w-]{32} ", process.stdout.readline())[0].strip()
+        while not told.exists():
+            time.sleep(0.05)
+        page = Path(urlsplit(told.read_text().strip()).path)
+        assert f'url={link}"' in page.read_text()
+        assert stat.S_IMODE(page.parent.stat().st_mode) == 0o700
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+    assert process.returncode == 0
+    assert not page.parent.exists()

@@ -9,14 +9,13 @@ from importlib.resources import files
 from bokeh.application import Application
 from bokeh.application.handlers.function import FunctionHandler
 from bokeh.document import Document
-from bokeh.server.server import BaseServer
 
 from rocking.explorer import plane_axes, presets
 from rocking.explorer.compilation import Compilation
 from rocking.explorer.field_readers import WORDS
 from rocking.explorer.ground_motion import GroundSession
 from rocking.explorer.ground_motion import page as ground_page
-from rocking.explorer.server import local_server
+from rocking.explorer.server import LocalServer, local_server
 from rocking.explorer.session import Session
 from rocking.explorer.worker_pools import Workers
 from rocking.model import VERSION, Criterion
@@ -43,8 +42,8 @@ FIELDS = (
 )
 
 
-def serve(port: int = 0) -> BaseServer:
-    """Create the local server of the explorer; `run_until_shutdown` starts it.
+def serve(port: int = 0) -> LocalServer:
+    """Create the local server of the explorer; `run_until_shutdown` starts it, and `link` is the address that opens it.
 
     Parameters
     ----------
@@ -53,7 +52,7 @@ def serve(port: int = 0) -> BaseServer:
 
     Returns
     -------
-    BaseServer
+    LocalServer
         Server, not yet started.
 
     Raises

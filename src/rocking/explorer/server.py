@@ -1,4 +1,4 @@
-"""HTTP server of the explorer: it listens on the loopback address and answers only requests for local host names."""
+"""HTTP server of the explorer: it listens on the loopback address and answers only its user, under local host names."""
 
 from __future__ import annotations
 
@@ -6,16 +6,20 @@ import logging
 import re
 import socket
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from bokeh.application import Application
 from bokeh.server.server import BaseServer
 from bokeh.server.tornado import BokehTornado
 from tornado.httpserver import HTTPServer
+from tornado.httputil import HTTPServerRequest
 from tornado.ioloop import IOLoop
-from tornado.routing import AnyMatches, HostMatches, PathMatches, Router, Rule, RuleRouter
+from tornado.routing import AnyMatches, HostMatches, Matcher, PathMatches, Router, Rule, RuleRouter
 from tornado.web import Application as Pages
-from tornado.web import ErrorHandler, RequestHandler
+from tornado.web import ErrorHandler, RequestHandler, stream_request_body
+
+from rocking.explorer.entrance import TOKEN, Entrance, Guarded, knows, new_token
 
 HOST = "127.0.0.1"
 NAMES = ("localhost", HOST, "[::1]")
@@ -24,11 +28,19 @@ LOGGERS = ("bokeh.server.protocol_handler", "bokeh.server.views.ws", "tornado.ap
 """Loggers of failed messages and connections."""
 MAX_MESSAGE = 64_000_000
 """Maximum size of a message of a page, in bytes: more than that of the largest file."""
+PATIENCE = 30.0
+"""Time limit for the headers of a request, and for its body, s."""
 UNUSED = 5_000
 """Lifetime of a session without a connection, ms; checked every two seconds."""
 
 
-def local_server(application: Application | Mapping[str, Application], port: int) -> BaseServer:
+class LocalServer(BaseServer):
+    """Server of the pages of one user. `link` is the address that opens them, with the token of the user."""
+
+    link: str
+
+
+def local_server(application: Application | Mapping[str, Application], port: int) -> LocalServer:
     """Create a local server of one or more applications, with one document per session.
 
     Parameters
@@ -40,7 +52,7 @@ def local_server(application: Application | Mapping[str, Application], port: int
 
     Returns
     -------
-    BaseServer
+    LocalServer
         Server, not yet started.
 
     Raises
@@ -59,26 +71,49 @@ def local_server(application: Application | Mapping[str, Application], port: int
         session_token_expiration=3_600,
         keep_alive_milliseconds=0,
         websocket_max_message_size_bytes=MAX_MESSAGE,
+        include_headers=[],  # what is included stands in the page, where scripts could read the cookie
+        include_cookies=[],
+        transforms=[Guarded],
         log_function=_keep_silent,
     )
     for name in LOGGERS:
         logging.getLogger(name).addFilter(is_ours)
-    server = HTTPServer(only_local(pages))
-    server.add_socket(listening)
-    return BaseServer(IOLoop.current(), pages, server)
+    token = new_token()
+    http = HTTPServer(
+        only_local(pages, token),
+        idle_connection_timeout=PATIENCE,
+        body_timeout=PATIENCE,
+        max_body_size=0,  # the pages send no body
+        max_buffer_size=MAX_MESSAGE + 2**20,  # with what follows a message
+    )
+    http.add_socket(listening)
+    server = LocalServer(IOLoop.current(), pages, http)
+    server.link = f"http://localhost:{port}/?{TOKEN}={token}"
+    return server
 
 
-def only_local(pages: Router) -> Router:
-    """Route requests for the allowed host names, and reject all others before any handler.
+def only_local(pages: Router, token: str) -> Router:
+    """Route requests of the user for the allowed host names, and reject all others before any handler.
 
     A page of another host can make the browser resolve that host name to this machine (DNS rebinding). The headers Origin
-    and Host of its requests then agree, so that a list of allowed origins does not reject them.
+    and Host of its requests then agree, so that a list of allowed origins does not reject them. Other users of this machine
+    can connect, too, but do not know the token.
     """
     names = "|".join(map(re.escape, NAMES))
+    entrance = Pages([(".*", Entrance, {"token": token})], transforms=[Guarded], log_function=_keep_silent)
+    local = RuleRouter(
+        [
+            Rule(_Where(lambda request: TOKEN in request.query_arguments), entrance),
+            Rule(_Where(lambda request: knows(request, token)), pages),
+            Rule(AnyMatches(), entrance),
+        ]
+    )
     return RuleRouter(
         [
+            Rule(_Where(lambda request: request.method != "GET"), _refusing(405)),
             Rule(PathMatches(r".*%00.*"), _refusing(400)),  # no file has such a name
-            Rule(HostMatches(f"(?i:{names})$"), pages),
+            Rule(PathMatches(r".*/autoload\.js"), _refusing(404)),  # it lets pages of other servers read this one
+            Rule(HostMatches(f"(?i:{names})$"), local),
             Rule(AnyMatches(), _refusing(403)),
         ]
     )
@@ -92,8 +127,27 @@ def is_ours(record: logging.LogRecord) -> bool:
     return any(frame.f_globals.get("__name__", "").startswith("rocking.") for frame in frames)
 
 
+class _Where(Matcher):
+    """Rule for requests of which a statement is true."""
+
+    def __init__(self, holds: Callable[[HTTPServerRequest], bool]) -> None:
+        self.holds = holds
+
+    def match(self, request: HTTPServerRequest) -> dict[str, Any] | None:
+        """Return no arguments of a handler, or None for another request."""
+        return {} if self.holds(request) else None
+
+
+@stream_request_body
+class _Refusal(ErrorHandler):
+    """Answer with an error before the body of the request is read."""
+
+    def data_received(self, chunk: bytes) -> None:
+        """Drop a part of the body that has come already."""
+
+
 def _refusing(status: int) -> Pages:
-    return Pages([(".*", ErrorHandler, {"status_code": status})], log_function=_keep_silent)
+    return Pages([(".*", _Refusal, {"status_code": status})], log_function=_keep_silent)
 
 
 def _keep_silent(handler: RequestHandler) -> None:

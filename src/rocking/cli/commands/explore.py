@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import signal
+import webbrowser
 from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -42,7 +45,7 @@ def explore(
     """Open the interactive explorer in the browser.
 
     Shows a map of responses. For each point of the map: time history, Poincaré section, spectrum, basins and verdict.
-    The server runs until Ctrl-C.
+    Other users of the computer cannot open the page: its address contains a token. The server runs until Ctrl-C.
     """
     from importlib.util import find_spec
 
@@ -59,15 +62,21 @@ def explore(
             f"cannot listen on --port {port}: {error.strerror or error} (give another port, or --port 0 for a free one)"
         ) from error
     _end_on_control_c(server.io_loop)
-    address = f"http://localhost:{server.port}/"
-    print(f"{address}  (accessible from this computer only; press Ctrl-C to stop)", flush=True)
+    print(f"{server.link}  (opens on this computer only; press Ctrl-C to stop)", flush=True)
     server.start()
-    if not no_browser:
-        server.io_loop.add_callback(server.show, "/")
-    try:
-        server.io_loop.start()
-    finally:
-        server.stop()
+    with TemporaryDirectory(prefix="rocking-") as folder:  # only this user can read it
+        if not no_browser:
+            server.io_loop.add_callback(_open, Path(folder, "open.html"), server.link)
+        try:
+            server.io_loop.start()
+        finally:
+            server.stop()
+
+
+def _open(page: Path, address: str) -> None:
+    """Open a page that leads to an address. All users of the computer see the arguments of the browser."""
+    page.write_text(f'<meta http-equiv="refresh" content="0; url={address}">\n', encoding="utf-8")
+    webbrowser.open(page.as_uri(), new=2)
 
 
 def _end_on_control_c(loop: IOLoop) -> None:
