@@ -437,6 +437,77 @@ def test_pointing_at_the_map_tells_kind_period_evidence_and_exponent(visit):
     visitor.is_content()
 
 
+OTHER = {"": ("restitution", "1"), "ground-motion": ("scale", "0.5")}
+"""Field of each page, and a value that gives another system."""
+
+
+@pytest.mark.parametrize("page", OTHER)
+def test_readout_table_and_verdict_belong_to_the_system_shown(visit, page):
+    visitor = visit()
+    visitor.open(page)
+    visitor.finished()
+    place = visitor.place("map", 0.12, 0.3)
+    visitor.page.mouse.move(*place)
+    before = visitor.text("readout")
+    assert "Hover" not in before
+    visitor.page.evaluate(
+        "window.drawing = draw; window.held = []; window.draw = drawn => held.push(drawn); 0"
+    )
+    name, value = OTHER[page]
+    visitor.page.fill(f"#{name}", value)
+    visitor.page.press(f"#{name}", "Enter")
+    visitor.until(f"location.search.includes('{name}={value}')")
+    assert visitor.text("readout") == "Computing …", "as long as the new map is not there"
+    visitor.page.click("[data-opens=take]")
+    visitor.page.click("[data-save=csv]")
+    assert visitor.text("notice") == "The figure is not computed yet: save it when it is."
+    visitor.page.keyboard.press("Escape")
+    visitor.page.evaluate("window.draw = drawing; held.forEach(each => draw(each));")
+    visitor.finished()
+    after = visitor.text("readout")
+    assert after.partition(":")[0] == before.partition(":")[0]
+    assert after != before
+    visitor.page.mouse.move(place[0] + 40, place[1])
+    visitor.page.mouse.move(*place)
+    assert visitor.text("readout") == after
+    visitor.judged()
+    assert visitor.text("facts")
+    visitor.page.evaluate("outdate({ renewed: [], moved: true })")
+    visitor.until("document.getElementById('kind').textContent === '…'")
+    assert visitor.text("facts") + visitor.text("evidence") == ""
+    visitor.is_content()
+
+
+def test_page_asks_for_the_token_and_its_link_holds_none(browser, running, tmp_path):
+    """Other pages and files lead to the page, too; the browser then keeps the cookie back at first."""
+    here, token = running.link.split("?token=")
+    view = "?version=1&amplitude=3&period=0.7&restitution=0.9"
+    with browser.new_context() as context:
+        page = context.new_page()
+        for leads in (view, f"{view}&token=wrong"):
+            assert page.goto(here + leads).status == 403
+        assert page.inner_text("[role=alert]") == "This is not the token of this page."
+        page.fill("#token", running.link)
+        page.click("button")
+        page.wait_for_selector("body[data-ready]")
+        page.wait_for_selector("#verdict:not(.stale)")
+        assert page.url == here + view
+        page.click("[data-opens=take]")
+        assert page.inner_text("#link-text") == here + view
+        assert token not in page.content() + page.evaluate("document.cookie + JSON.stringify(localStorage)")
+        [cookie] = context.cookies()
+        assert (cookie["httpOnly"], cookie["sameSite"]) == (True, "Strict")
+    for leads, second in ((running.link, here), (running.link, here + view)):
+        with browser.new_context() as context:
+            page = context.new_page()
+            for number, address in enumerate((leads, second)):
+                way = tmp_path / f"{number}.html"
+                way.write_text(f'<meta http-equiv="refresh" content="0; url={address}">')
+                page.goto(way.as_uri())
+                page.wait_for_selector("body[data-ready]")
+            assert token not in page.url
+
+
 def test_section_grows_to_a_hundred_thousand_points(visit):
     visitor = visit()
     visitor.open("?version=1&amplitude=10.103037&period=1.721328&restitution=0.8")

@@ -3,6 +3,7 @@
 import asyncio
 import io
 import itertools
+import json
 import math
 import subprocess
 import sys
@@ -22,6 +23,7 @@ import record_files as write
 import rocking as rk
 from rocking.explorer import compilation
 from rocking.explorer.field_readers import Refused
+from rocking.explorer.ground_motion import renderer
 from rocking.explorer.ground_motion.block_motion import block_motion, margin_in_words
 from rocking.explorer.ground_motion.ground import Ground, ground_of, open_file, read_file, thinned
 from rocking.explorer.ground_motion.map_file import netcdf
@@ -49,7 +51,7 @@ from rocking.explorer.ground_motion.view import (
 )
 from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
-from rocking.model import KINDS, Outcome
+from rocking.model import KINDS, Outcome, TooManyEvents
 from rocking.records import reading_process
 from rocking.survey import BlockEndings
 
@@ -421,6 +423,7 @@ from attrs import evolve
 
 import rocking as rk
 from rocking.explorer.compilation import needed_by_ground
+from rocking.explorer.ground_motion import renderer
 from rocking.explorer.ground_motion.block_motion import block_motion
 from rocking.explorer.ground_motion.ground import Ground
 from rocking.explorer.ground_motion.view import DEFAULT
@@ -471,3 +474,24 @@ def test_invalid_message_or_file_leaves_the_view_and_says_so(workers):
     assert shown == DEFAULT
     parts = ("Unknown request", "choose a file", "could not be received", "not part of the link")
     assert [part in text for part, text in zip(parts, refused, strict=True)] == [True] * 4
+
+
+def test_motion_with_too_many_events_is_not_shown_as_the_one_before(workers, monkeypatch):
+    def crowded(*_):
+        raise TooManyEvents("more than 3 events")
+
+    async def at_once(change):
+        change()
+
+    async def visit():
+        session = GroundSession(Document(), workers, compilation.Compilation())
+        monkeypatch.setattr(session.renderer, "_draw", at_once)
+        monkeypatch.setattr(renderer, "block_motion", crowded)
+        await session.renderer.draw_motion(DEFAULT, np.zeros(1, np.int64))
+        return session.link
+
+    link = run(visit())
+    told = json.loads(link.verdict)
+    assert (told["kind"], told["margin"], told["facts"]) == ("not computed", "More than 3 events.", [])
+    assert link.drawn["history"]["line"]["angle"].size == 0
+    assert link.drawn["base"]["line"]["acceleration"].size > 0

@@ -55,7 +55,7 @@ function show(told) {
   find("python").textContent = told.python;
   find("commands").textContent = told.commands;
   find("link-text").textContent = location.href;
-  if (told.moved) find("verdict").classList.add("stale");
+  outdate(told);
   find("units").close(); // uncovers the new view
   if (told.fields.height) { find("m-height").value = told.fields.height; find("m-width").value = told.fields.width; }
 }
@@ -112,36 +112,26 @@ for (const name of ["map", "basin"]) {
   find(name).addEventListener("keydown", event => {
     if (keys[event.key] && !event.ctrlKey && !event.altKey && !event.metaKey) { event.preventDefault(); keys[event.key](); }
   });
-  find(name).addEventListener("pointermove", event => point(name, event));
 }
 
 // ---- readout of the map at a point
 
-function point(name, event) {
-  if (name !== "map" || !shown) return;
-  const view = Bokeh.index.find_one(models.map);
-  const box = view?.el.getBoundingClientRect(), inner = view?.frame?.bbox;
-  if (!inner) return;
-  const across = (event.clientX - box.left - inner.left) / inner.width, up = 1 - (event.clientY - box.top - inner.top) / inner.height;
-  const source = answers.map ?? {}, side = Math.round(Math.sqrt(source.look?.length ?? 0));
-  if (!side || across < 0 || across > 1 || up < 0 || up > 1) return;
+function readout(across, up) {
+  const source = answers.map, side = Math.round(Math.sqrt(source.look.length));
   const { x_range, y_range } = models.map, [left, right, bottom, top] = shown.planes.map.ranges;
   const x = x_range.start + across * (x_range.end - x_range.start), y = y_range.start + up * (y_range.end - y_range.start);
   const column = Math.round((x - left) / (right - left) * (side - 1)), row = Math.round((y - bottom) / (top - bottom) * (side - 1));
   if (column < 0 || row < 0 || column >= side || row >= side) return;
   const at = row * side + column, look = source.look[at], period = source.response_period[at], impacts = source.impacts_per_period[at];
   const ground = source.evidence[at], exponent = source.exponent[at], [baseX, baseY] = shown.planes.map.base;
-  const parts = [given.looks[look] ?? "invalid initial state"];
-  if (period > 0) parts.push(`repeats after ${period} cycle${period > 1 ? "s" : ""}` + (impacts >= 0 ? `, ${impacts} impact${impacts === 1 ? "" : "s"}` : ""));
+  const told = [];
+  if (period > 0) told.push(`repeats after ${period} cycle${period > 1 ? "s" : ""}` + (impacts >= 0 ? `, ${impacts} impact${impacts === 1 ? "" : "s"}` : ""));
   const level = given.levels[ground] === "none" ? "" : ` (${given.levels[ground]})`;
-  parts.push(given.grounds[ground] + level);
-  if (exponent === -Infinity) parts.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) parts.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")} per τ`);
-  const readout = find("readout");
+  told.push(given.grounds[ground] + level);
+  if (exponent === -Infinity) told.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) told.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")} per τ`);
   const digits = span => Math.min(17, Math.max(4, 3 - Math.floor(Math.log10(span))));
-  readout.replaceChildren(`T = ${(baseX + x).toPrecision(digits((right - left) / Math.abs(baseX + x)))}, A = ${(baseY + y).toPrecision(digits((top - bottom) / Math.max(Math.abs(baseY + y), 1e-9)))}: `);
-  const strong = document.createElement("b");
-  strong.textContent = parts.shift();
-  readout.append(strong, "; " + parts.join("; "));
+  const place = `T = ${(baseX + x).toPrecision(digits((right - left) / Math.abs(baseX + x)))}, A = ${(baseY + y).toPrecision(digits((top - bottom) / Math.max(Math.abs(baseY + y), 1e-9)))}: `;
+  return [place, strong(given.looks[look] ?? "invalid initial state"), ["", ...told].join("; ")];
 }
 
 // ---- verdict, legends and messages

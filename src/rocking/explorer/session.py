@@ -116,15 +116,19 @@ class Session:
         painter.mark(new)
         if first and not painter.compilation.may_start(ALL):
             jobs.start("compile", painter.tell_compilation)
+        mapped = differs("periods", "amplitudes", *SHAKEN)
         moved = differs(*SYSTEM, "first", "cycles", "height", "width")
-        self.link.send("shown", self._told() | {"push": push, "moved": moved})
-        if differs("periods", "amplitudes", *SHAKEN):
+        started = moved or differs("angles", "velocities")
+        computed = {"map": mapped, "section": moved, "basin": started}
+        renewed = [name for name, again in computed.items() if again]
+        self.link.send("shown", self._told() | {"push": push, "moved": moved, "renewed": renewed})
+        if mapped:
             jobs.start("map", partial(painter.refine_map, new))
         if moved:
             for name in ("basin", "section", "judge"):
                 jobs.end(name)
             jobs.start("response", partial(painter.respond, new))
-        elif differs("angles", "velocities"):
+        elif started:
             jobs.start("basin", partial(painter.refine_basin, new))
         if differs("vary", "varied", *[name for name in SYSTEM if name != new.vary]):
             jobs.start("diagram", partial(painter.draw_diagram, new))

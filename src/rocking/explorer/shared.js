@@ -59,6 +59,7 @@ function draw(drawn) {
   }
   for (const [name, told] of parts(drawn)) if (models[name]) for (const [part, value] of parts(told)) fill(name, part, value);
   if (parts(drawn).some(([name]) => name === "history")) scene();
+  read();
 }
 
 function fill(name, part, value) {
@@ -73,10 +74,54 @@ function fill(name, part, value) {
   } else change(figure.renderers.find(each => each.data_source.name === part).data_source, { data: value });
 }
 
+// ---- what belongs to another view than the one shown
+
+let late; // timer: a quick verdict takes the place of the one before without a flicker
+
+function outdate({ renewed, moved }) {
+  for (const name of renewed) delete answers[name];
+  read();
+  if (!moved) return;
+  find("verdict").classList.add("stale");
+  late ??= setTimeout(() => write({ kind: "…", colour: "", facts: [], evidence: "" }), 250);
+}
+
+// ---- readout of the map at a point
+
+const hint = find("readout").textContent;
+let pointed; // last place of the pointer in the frame of the map, as fractions of its sides
+
+find("map").addEventListener("pointermove", event => {
+  const view = Bokeh.index.find_one(models.map), box = view?.el.getBoundingClientRect(), inner = view?.frame?.bbox;
+  if (!inner) return;
+  const place = [(event.clientX - box.left - inner.left) / inner.width, 1 - (event.clientY - box.top - inner.top) / inner.height];
+  if (Math.min(...place) < 0 || Math.max(...place) > 1) return;
+  pointed = place;
+  read();
+});
+
+// Tell what the map shown has at this place, again with each map.
+function read() {
+  if (!pointed || !shown) return;
+  find("readout").replaceChildren(...(answers.map ? readout(...pointed) ?? [hint] : ["Computing …"]));
+}
+
+function strong(text) {
+  const made = document.createElement("b");
+  made.textContent = text;
+  return made;
+}
+
 // ---- messages
 
 function judge(told) {
+  clearTimeout(late);
+  late = undefined;
   find("verdict").classList.remove("stale");
+  write(told);
+}
+
+function write(told) {
   find("kind").textContent = told.kind;
   find("verdict").querySelector("i").style.background = told.colour;
   find("facts").replaceChildren(...told.facts.map(([name, value]) => {

@@ -49,14 +49,26 @@ def block_motion(shown: GroundView, ground: Ground) -> BlockMotion:
     times, degrees = _history(motion, block, ground.sampled.times.size)
     line = ground.line(shown.scale)
     end = float(max(times[-1], line["time"][-1]))
-    fullest = max(float(np.abs(degrees).max()), 0.2 * block.degrees(1.0)) * (1 + 2 * OVER)
-    largest = max(float(np.abs(line["acceleration"]).max()), 1e-6) * (1 + 5 * OVER)
+    fullest = max(float(np.abs(degrees).max()), 0.2 * block.degrees(1.0))
     return BlockMotion(
-        {"time": times, "angle": degrees},
-        line,
-        {"history": [0.0, end, -fullest, fullest], "base": [0.0, end, -largest, largest]},
-        _words(motion, block),
+        {"time": times, "angle": degrees}, line, _spans(line, end, fullest), _words(motion, block)
     )
+
+
+def no_motion(shown: GroundView, ground: Ground, reason: str) -> BlockMotion:
+    """Return figures without a motion, and the reason in place of the verdict."""
+    line, critical = ground.line(shown.scale), shown.block.degrees(1.0)
+    nothing = {"time": np.empty(0), "angle": np.empty(0)}
+    words = {"kind": "not computed", "colour": "", "facts": [], "decided": True, "validity": []}
+    words |= {"margin": f"{reason[0].upper()}{reason[1:]}.", "certified": ""}
+    return BlockMotion(nothing, line, _spans(line, float(line["time"][-1]), critical), words)
+
+
+def _spans(line: dict[str, np.ndarray], end: float, fullest: float) -> dict[str, list[float]]:
+    """Return the ranges of the angle and of the base acceleration, with free borders."""
+    angle = fullest * (1 + 2 * OVER)
+    largest = max(float(np.abs(line["acceleration"]).max()), 1e-6) * (1 + 5 * OVER)
+    return {"history": [0.0, end, -angle, angle], "base": [0.0, end, -largest, largest]}
 
 
 def _history(motion: Motion, block: Block, samples: int) -> tuple[np.ndarray, np.ndarray]:

@@ -33,7 +33,7 @@ function show(told) {
   channel.replaceChildren(...told.channels.map((name, n) => new Option(name ? `${n + 1}: ${name}` : String(n + 1), n + 1)));
   for (const [name, text] of Object.entries(told.fields)) {
     const field = document.querySelector(`#fields [name="${name}"]`);
-    if (field && document.activeElement !== field) field.value = field.tagName === "INPUT" ? brief(text) : text;
+    if (field && !field.dataset.typing) field.value = field.tagName === "INPUT" && document.activeElement !== field ? brief(text) : text;
   }
   place(told.fields.source);
   remember(told, before);
@@ -44,10 +44,8 @@ function show(told) {
   find("ground-name").textContent = told.ground.name;
   find("ground-facts").replaceChildren(...rows(told.ground.facts));
   find("ground-note").textContent = told.ground.note;
-  if (told.mapped) document.body.dataset.map = "0";
-  if (told.moved) find("verdict").classList.add("stale");
-  const { height, width } = told.block;
-  if (!before || before.block.height !== height || before.block.width !== width) find("readout").textContent = "Hover over the map to see a block; click to select it.";
+  if (told.renewed.length) document.body.dataset.map = "0";
+  outdate(told);
 }
 
 // Fields of the pulse and of the file are visible only for these sources.
@@ -64,7 +62,9 @@ function refused(told) {
 }
 
 for (const field of all("#fields input:not([type]), #fields select")) {
+  if (field.tagName === "INPUT") field.addEventListener("input", () => { field.dataset.typing = "yes"; });
   field.addEventListener("change", () => {
+    delete field.dataset.typing;
     if (field.name === "source") {
       place(field.value);
       if (field.value === "file" && !shown?.channels.length) return find("file").click();
@@ -137,16 +137,6 @@ function zoom(by) {
 for (const button of all("[data-zoom]")) button.onclick = () => zoom(Number(button.dataset.zoom));
 find("whole").onclick = () => ask("fields", { sizes: "0.2:10", angles: "3:30" });
 
-// Point of the grid of answers under the pointer.
-function point(event) {
-  const view = Bokeh.index.find_one(models.map), box = view?.el.getBoundingClientRect(), inner = view?.frame?.bbox;
-  const side = Math.round(Math.sqrt(answers.map?.outcome.length ?? 0));
-  if (!inner || !side || !shown) return;
-  const across = (event.clientX - box.left - inner.left) / inner.width, up = 1 - (event.clientY - box.top - inner.top) / inner.height;
-  if (across < 0 || across > 1 || up < 0 || up > 1) return;
-  return block(Math.round(up * (side - 1)) * side + Math.round(across * (side - 1)), side);
-}
-
 function block(at, side) {
   const [left, right] = shown.sizes, [low, high] = shown.angles;
   const size = left * (right / left) ** (at % side / (side - 1)), angle = low + (high - low) * Math.floor(at / side) / (side - 1), radians = angle * Math.PI / 180;
@@ -155,14 +145,16 @@ function block(at, side) {
     outcome: overturns ? "overturns" : peak > 0 ? "rocks and stands" : "stands still" };
 }
 
-find("map").addEventListener("pointermove", event => {
-  const found = point(event);
-  if (!found) return;
-  const strong = document.createElement("b");
-  strong.textContent = found.outcome;
+function readout(across, up) {
+  const side = Math.round(Math.sqrt(answers.map.outcome.length)), { x_range, y_range } = models.map, [left, right] = shown.sizes, [low, high] = shown.angles;
+  const size = x_range.start * (x_range.end / x_range.start) ** across, angle = y_range.start + up * (y_range.end - y_range.start);
+  const column = Math.round(Math.log(size / left) / Math.log(right / left) * (side - 1)), row = Math.round((angle - low) / (high - low) * (side - 1));
+  if (column < 0 || row < 0 || column >= side || row >= side) return;
+  const found = block(row * side + column, side);
   const reach = found.outcome === "rocks and stands" ? `, largest angle ${rounded(found.peak * found.angle, 3)}° = ${rounded(found.peak, 3)} θcr` : "";
-  find("readout").replaceChildren(`Height ${rounded(found.height, 3)} m, width ${rounded(found.width, 3)} m (R ${rounded(found.size, 3)} m, θcr ${rounded(found.angle, 3)}°): `, strong, reach + (found.certified ? "" : "; not certified"));
-});
+  const place = `Height ${rounded(found.height, 3)} m, width ${rounded(found.width, 3)} m (R ${rounded(found.size, 3)} m, θcr ${rounded(found.angle, 3)}°): `;
+  return [place, strong(found.outcome), reach + (found.certified ? "" : "; not certified")];
+}
 
 // ---- verdict and legend
 
@@ -228,7 +220,7 @@ function scene() {
   const angle = Array.from(degrees, value => value * Math.PI / 180 / critical), peak = Math.max(...angle.map(Math.abs));
   const angles = Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12);
   film = { time, angle, height, width, critical, angles, moves: 1, displacement: () => 0, speed: 1 };
-  clock = Math.min(clock, time[time.length - 1]);
+  clock = Math.min(clock, time[time.length - 1] ?? 0);
   find("scene-told").textContent = angles > 1.05 ? `angle × ${angles.toPrecision(2)}` : "true to scale";
   frame();
 }

@@ -12,7 +12,7 @@ import numpy as np
 from rocking.explorer.compilation import needed_by_ground
 from rocking.explorer.document_renderer import DocumentRenderer
 from rocking.explorer.ground_motion import figures
-from rocking.explorer.ground_motion.block_motion import BlockMotion, block_motion
+from rocking.explorer.ground_motion.block_motion import BlockMotion, block_motion, no_motion
 from rocking.explorer.ground_motion.ground import Ground, ground_of
 from rocking.explorer.ground_motion.map_file import netcdf
 from rocking.explorer.ground_motion.size_map import SizePicture, SizePlane, SizeRefinement
@@ -92,8 +92,7 @@ class GroundRenderer(DocumentRenderer):
         try:
             found = await self.workers.soon(partial(block_motion, shown, self.ground))
         except TooManyEvents as error:
-            await self._draw(partial(self.link.send, "refused", {"fields": {"page": str(error)}}))
-            return
+            found = no_motion(shown, self.ground, str(error))
         await self._draw(partial(self._draw_motion, shown, found))
 
     def _draw_motion(self, shown: GroundView, found: BlockMotion) -> None:

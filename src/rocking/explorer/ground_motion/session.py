@@ -150,7 +150,7 @@ class GroundSession:
         shaken = shaken or old.model != new.model
         mapped = shaken or (old.sizes, old.angles) != (new.sizes, new.angles)
         moved = shaken or (old.height, old.width) != (new.height, new.width)
-        changes = {"push": push, "mapped": mapped, "moved": moved}
+        changes = {"push": push, "renewed": ["map"] if mapped else [], "moved": moved}
         self.link.send("shown", self._told(renderer.ground) | changes)
         renderer.mark(new)
         if mapped:
