@@ -124,7 +124,7 @@ def test_this_machines_own_names_get_them_at_any_port():
 
 
 def test_nobody_else_gets_a_page_a_file_or_a_connection():
-    """They are asked for the token. No answer tells it, and what leads pages of other servers here is not served."""
+    """They get a form for the token. No answer tells it, and what leads pages of other servers here is not served."""
 
     async def visit():
         async with served() as port:

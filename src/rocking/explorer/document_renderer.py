@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from bokeh.document import Document
@@ -35,25 +35,28 @@ class DocumentRenderer:
         self.jobs = Jobs()
 
     def in_turn(self, act: Callable[[Value], None]) -> Callable[[Value], None]:
-        """Return a function that calls `act` later, in the event loop, with the lock of the document held.
-
-        From version 3.10 on, Bokeh calls plain functions on threads of its own, which must not start jobs. It awaits
-        coroutines in the event loop.
-        """
+        """Return a function that calls `act` later, in the event loop, with the lock of the document held."""
 
         def later(given: Value) -> None:
             async def acting() -> None:
                 act(given)
 
-            self.document.add_next_tick_callback(acting)
+            self._await(acting)
 
         return later
+
+    def _await(self, act: Any) -> None:  # the type hints of Bokeh 3.9 lack coroutines
+        """Await the coroutine `act()` in the event loop, with the lock of the document held.
+
+        From version 3.10 on, Bokeh calls plain functions on threads of its own, which must not start jobs.
+        """
+        self.document.add_next_tick_callback(act)
 
     async def _draw(self, change: Callable[[], None]) -> None:
         """Change the document in the event loop, with its lock held."""
         done = asyncio.get_running_loop().create_future()
 
-        async def act() -> None:  # a coroutine for the reason given in `in_turn`
+        async def act() -> None:
             if self._alone():
                 self.jobs.end_all()
             if done.cancelled():
@@ -65,7 +68,7 @@ class DocumentRenderer:
             else:
                 done.set_result(None)
 
-        self.document.add_next_tick_callback(act)
+        self._await(act)
         await done
 
     def _alone(self) -> bool:

@@ -53,8 +53,8 @@ def _same(given: str, token: str) -> bool:
 class Entrance(RequestHandler):
     """Exchange the token of an address for the cookie, and ask for the token where both are missing.
 
-    The answer to a valid token is a page that opens the address without the token. A redirection would not do: if another
-    page or a file leads here, the browser sends a cookie that is `SameSite=Strict` only with what this page asks for itself.
+    The answer to a valid token is a page that opens the address without the token. A redirection would not do. If another
+    page or a file leads here, the browser sends a cookie with `SameSite=Strict` only in requests that this page makes.
     """
 
     def initialize(self, token: str) -> None:

@@ -103,10 +103,7 @@ class Spectrum:
 
 @frozen(eq=False)
 class Drawn:
-    """Section to draw: single points or an image of their density, the periodic orbit, and the cycles shown.
-
-    `all` holds all points for the table.
-    """
+    """Section to draw: single points or an image of their density, the periodic orbit, all points, the cycles shown."""
 
     points: Columns
     dense: Columns
@@ -250,13 +247,8 @@ class Section:
         image = np.zeros(CELLS * CELLS, np.uint8)
         image[places] = np.minimum(1 + np.log2(counts), 8)
         left, right, bottom, top = spans
-        dense = {
-            "image": [image.reshape(CELLS, CELLS)],
-            "x": [left],
-            "y": [bottom],
-            "w": [right - left],
-            "h": [top - bottom],
-        }
+        dense = {"image": [image.reshape(CELLS, CELLS)], "x": [left], "y": [bottom]}
+        dense |= {"w": [right - left], "h": [top - bottom]}
         return Drawn({"angle": [], "velocity": []}, dense, orbit, everything, spans, label)
 
     def _omitted(self) -> int:

@@ -112,9 +112,7 @@ def only_local(pages: Router, token: str) -> Router:
         [
             Rule(_Where(lambda request: request.method != "GET"), _refusing(405)),
             Rule(PathMatches(r".*%00.*"), _refusing(400)),  # no file has such a name
-            Rule(
-                PathMatches(r".*/autoload\.js"), _refusing(404)
-            ),  # it lets pages of other servers read this one
+            Rule(PathMatches(r".*/autoload\.js"), _refusing(404)),  # for pages of other servers
             Rule(HostMatches(f"(?i:{names})$"), local),
             Rule(AnyMatches(), _refusing(403)),
         ]
