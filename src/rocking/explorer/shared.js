@@ -80,6 +80,7 @@ let late; // timer: a quick verdict takes the place of the one before without a 
 
 function outdate({ renewed, moved }) {
   for (const name of renewed) delete answers[name];
+  if (renewed.includes("map")) document.body.dataset.map = "0";
   read();
   if (!moved) return;
   find("verdict").classList.add("stale");

@@ -44,7 +44,6 @@ function show(told) {
   find("ground-name").textContent = told.ground.name;
   find("ground-facts").replaceChildren(...rows(told.ground.facts));
   find("ground-note").textContent = told.ground.note;
-  if (told.renewed.length) document.body.dataset.map = "0";
   outdate(told);
 }
 
