@@ -437,7 +437,7 @@ def test_pointing_at_the_map_tells_kind_period_evidence_and_exponent(visit):
     visitor.is_content()
 
 
-OTHER = {"": ("restitution", "1"), "ground-motion": ("scale", "0.5")}
+OTHER = {"": ("restitution", "0.8"), "ground-motion": ("scale", "0.5")}
 """Field of each page, and a value that gives another system."""
 
 
