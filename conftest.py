@@ -46,7 +46,9 @@ def keep_study(example):
 
 @pytest.hookimpl(tryfirst=True)  # before the items are grouped by their marks for the workers
 def pytest_collection_modifyitems(items):
-    """Let one worker run all blocks of a page, because they depend on each other."""
+    """Let one worker run all blocks of a page, because they depend on each other; run each example of the package once."""
+    # An example of a public name is found where it is defined, and again where it is public.
+    items[:] = [item for item in items if item.path.name != "__init__.py"]
     for item in items:
         if item.path.suffix == ".md":
             item.add_marker(pytest.mark.xdist_group(item.path.name))

@@ -273,12 +273,18 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     import_module("rocking.model.notebook_renderers").fill_at_first_use(lambda: import_module("rocking.plot"))
     if name in _SUB_NAMESPACES:
-        value = import_module(f"rocking.{name}")
+        globals()[name] = import_module(f"rocking.{name}")
     else:
-        room = next((room for room, names in _NAMES if name in names.split()), "model")
-        value = getattr(import_module(f"rocking.{room}"), _ALIAS.get(name, name))
-    globals()[name] = value
-    return value
+        rooms = {each: room for room, names in _NAMES for each in names.split()}
+        found = {each: rooms.get(each, "model") for each in __all__ if each not in _SUB_NAMESPACES}
+        # other rooms return values of the model, whose methods have keywords, too
+        names = [each for each, room in found.items() if room in ("model", found[name])]
+        for each in names:
+            globals().setdefault(
+                each, getattr(import_module(f"rocking.{found[each]}"), _ALIAS.get(each, each))
+            )
+        import_module("rocking.model.keywords").explain(globals(), names)
+    return globals()[name]
 
 
 def __dir__() -> list[str]:

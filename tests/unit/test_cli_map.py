@@ -209,7 +209,7 @@ def test_all_errors_of_a_study_file_are_told_at_once(rocking):
         "restitution must lie in [0, 1]; got 1.2",
         "max-cycles must be a whole number in [1, 100000000]; got 0",
         "plot must be a path; got 3",
-        "phase must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]; got '1:2:3:4' (example: 1:3:60)",
+        "phase must be a number or START:STOP:COUNT with finite START ≠ STOP and a whole COUNT in [2, 1000000]; got '1:2:3:4' ",
         "angle must be a number, START:STOP:COUNT, or a table of start, stop and optionally count; got start",
     ):
         assert part in message
@@ -225,11 +225,19 @@ REFUSED = {
         "a parametric map needs two quantities as axes, START:STOP:COUNT; got --amplitude"
     ),
     f"{LINE} --phase one": (
-        "--phase must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "
+        "--phase must be a number or START:STOP:COUNT with finite START ≠ STOP and a whole COUNT "
         "in [2, 1000000]; got 'one' (example: 1:3:60)"
     ),
+    f"{LINE} --phase 0:inf:3": (
+        "--phase must be a number or START:STOP:COUNT with finite START ≠ STOP and a whole COUNT "
+        "in [2, 1000000]; got '0:inf:3' (example: 1:3:60)"
+    ),
+    f"{LINE} --phase {'1' * 5_000}:": (
+        "--phase must be a number or START:STOP:COUNT with finite START ≠ STOP and a whole COUNT "
+        f"in [2, 1000000]; got '{'1' * 58}… (example: 1:3:60)"
+    ),
     f"{LINE} --phase 1:2:2.5": (
-        "--phase must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "
+        "--phase must be a number or START:STOP:COUNT with finite START ≠ STOP and a whole COUNT "
         "in [2, 1000000]; got '1:2:2.5' (example: 1:3:60)"
     ),
     f"{LINE} --max-cycles many": "--max-cycles must be a number without a unit, such as 0.6; got 'many'",

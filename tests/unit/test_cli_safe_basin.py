@@ -134,7 +134,7 @@ def test_study_file_gives_the_options_and_a_typed_one_comes_first(rocking):
         ("amplitude = 3", "--amplitude must be an axis, START:STOP:COUNT; got 3"),
         (
             'amplitude = "3:6:4"\nangle = "0.1"',
-            "study 'study.toml': angle must be a range, START:STOP with START ≠ STOP; got '0.1'",
+            "study 'study.toml': angle must be a range, START:STOP with finite START ≠ STOP; got '0.1'",
         ),
         ('amplitude = "3:6:4"\nboundary-runs = 5', "study 'study.toml': unknown 'boundary-runs'"),
     ],
@@ -148,8 +148,10 @@ def test_faults_of_a_study_file_are_one_line(rocking, entries, message):
 
 
 NORMALISED = "--amplitude 3:6:4 --period 1"
-AXIS = "--amplitude must be an axis, START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]"
-RANGE = "--angle must be a range, START:STOP with START ≠ STOP"
+AXIS = (
+    "--amplitude must be an axis, START:STOP:COUNT with finite START ≠ STOP and a whole COUNT in [2, 1000000]"
+)
+RANGE = "--angle must be a range, START:STOP with finite START ≠ STOP"
 
 
 @pytest.mark.parametrize(

@@ -80,7 +80,7 @@ def test_axis_is_a_table_and_modes_are_a_list(rocking):
             "amplitude = 'a'\nperiod = 3\nmodes = '1'\nstep = true\nplot = 3\nseeds = 1\n",
             [
                 "amplitude must be a number; got 'a'",
-                "period must be an axis, START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]; got 3",
+                "period must be an axis, START:STOP:COUNT with finite START ≠ STOP and a whole COUNT in [2, 1000000]; got 3",
                 "modes must be a number; got '1' (write a number without quotation marks)",
                 "step must be a number; got True",
                 "plot must be a path; got 3",
@@ -91,7 +91,7 @@ def test_axis_is_a_table_and_modes_are_a_list(rocking):
             "continue",
             "amplitude = '1:2:3'\nphase = [1]\nmodel = 2\njson = true\nstudy = 'b.toml'\n",
             [
-                "amplitude must be a number or START:STOP with START ≠ STOP; got '1:2:3' (example: 1:3)",
+                "amplitude must be a number or START:STOP with finite START ≠ STOP; got '1:2:3' (example: 1:3)",
                 "phase must be a number; got [1]",
                 "model must be one of 'slender', 'full'; got 2",
                 "unknown 'json'; unknown 'study'; keys of this command: amplitude, ",
@@ -271,7 +271,11 @@ def test_number_in_quotation_marks_is_an_error_of_every_command(rocking, command
         ("continue", "amplitude = true", "amplitude must be a number or START:STOP; got True"),
         ("orbit-diagram", "phase = [1, 2]", "phase must be a number or START:STOP:COUNT; got [1, 2]"),
         ("frequency-response", "period = [1, 2]", "period must be an axis, START:STOP:COUNT; got [1, 2]"),
-        ("frequency-response", "period = '2'", "period must be an axis, START:STOP:COUNT with START ≠ STOP"),
+        (
+            "frequency-response",
+            "period = '2'",
+            "period must be an axis, START:STOP:COUNT with finite START ≠ STOP",
+        ),
     ],
 )
 def test_message_about_an_entry_states_its_form(rocking, command, line, told):

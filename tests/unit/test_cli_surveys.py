@@ -181,7 +181,7 @@ def test_overturning_reads_a_study_file(rocking):
             "overturning",
             "restitution = [0.9, 0.8]\nperiod = '1:2:1'\nphases = 0\nangle = 0.1\n",
             [
-                "period must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]; got '1:2:1'",
+                "period must be a number or START:STOP:COUNT with finite START ≠ STOP and a whole COUNT in [2, 1000000]; got '1:2:1'",
                 "restitution must hold two numbers or more in [0, 1], ascending; got 0.9 before 0.8 at index 1",
                 "phases must be a whole number in [1, 100000]; got 0",
                 "unknown 'angle'; keys of this command: ",

@@ -5,16 +5,66 @@ import inspect
 import math
 import pickle
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import rocking as rk
 from rocking.cli.option_names import YourInput
 from rocking.explorer.field_readers import Refused
-from rocking.model import WriteError
+from rocking.model import WriteError, shown_path
 from rocking.model.validation import WAYS, NoOrbit, TooManyEvents, TooShort, one_of, reals, shown, whole
 from rocking.survey.store.locking import StoreError
+
+ONE = {
+    "array": np.array,
+    "DataArray": xr.DataArray,
+    "masked array": np.ma.array,
+    "NumPy": np.float64,
+    "Fraction": Fraction,
+}
+"""Forms of one number."""
+
+
+@pytest.mark.parametrize("form", ONE.values(), ids=ONE)
+def test_a_number_is_taken_in_any_form_without_dimensions(form):
+    """Results are arrays and DataArrays, and an element of one is a number."""
+    system = rk.System(rk.Harmonic(form(15), period=form(1)), restitution=form(0.5))
+    assert system == rk.System(rk.Harmonic(15.0, period=1.0), restitution=0.5)
+    assert rk.simulate(system, rk.State(form(0.25)), cycles=form(2)).cycles == 2
+    assert rk.Block(form(2), form(0.5)) == rk.Block(2.0, 0.5)
+    assert type(rk.Block(2.0, 0.5).seconds(form(1))) is float
+    diagram = rk.orbit_diagram(
+        system, "amplitude", [14.0, 15.0], cycles=form(5), transient=form(0), section_phase=form(0.5)
+    )
+    assert diagram.section_phase == 0.5
+    found = rk.parametric_map(
+        amplitude=[2.0, 3.0], period=[1.0, 2.0], restitution=form(0.5), max_cycles=form(10)
+    )
+    assert found.attrs["restitution"] == 0.5
+    assert rk.theory.free_impact_speed(form(0.5)) == rk.theory.free_impact_speed(0.5)
+
+
+@pytest.mark.parametrize(
+    "value",
+    [np.array([5.0]), xr.DataArray([5.0]), np.array(True), np.bool_(True), np.array("5"), np.array(5j), np.timedelta64(5, "s"),
+     xr.DataArray(np.timedelta64(5, "ns")), np.array(None), np.ma.masked],
+    ids=repr,
+)  # fmt: skip
+def test_what_holds_no_single_real_number_is_no_number(value):
+    with pytest.raises(TypeError, match=r"^height must be a real number in "):
+        rk.Block(value, 0.5)
+    with pytest.raises(TypeError, match=r"^cycles must be a whole number in "):
+        whole("cycles", value, 1, 10)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -1.0])
+def test_ranges_hold_for_numbers_in_arrays(value):
+    for form in (np.array, xr.DataArray):
+        with pytest.raises(ValueError, match=r"^height must lie in "):
+            rk.Block(form(value), 0.5)
 
 
 @pytest.mark.parametrize("value", [5, 5.0, np.int64(5), np.float64(5)])
@@ -87,7 +137,7 @@ def test_array_whose_mask_hides_nothing_is_taken():
 @pytest.mark.parametrize("value", [10**400, -(10**400), 10**5000, Fraction(10**400)], ids=lambda _: "huge")
 def test_number_beyond_all_floats_is_refused(value):
     with pytest.raises(
-        ValueError, match=r"^times must be a real number of size up to 1\.79769e\+308; got "
+        ValueError, match=r"^times must be a real number of size up to 1e\+300; got "
     ) as caught:
         reals("times", value)
     assert len(str(caught.value).splitlines()) == 1
@@ -147,10 +197,56 @@ def test_one_of_names_the_choices():
         one_of("record", 1, ("all", "none"))
 
 
+GIVEN = {
+    "forcing": rk.Harmonic(2.0, period=1.0),
+    "pulse": rk.Pulse("one-sine", amplitude=2.0, duration=1.0),
+    "ground_motion": rk.GroundMotion([0.0, 1.0, 0.0], step=0.1),
+    "block": BLOCK,
+}
+
+
 @pytest.mark.parametrize("name", [name for name in WAYS if WAYS[name].startswith("make one: ")])
 def test_what_is_told_makes_a_value_of_the_kind(name):
-    told = WAYS[name].removeprefix("make one: ").partition(", or by rk.Block")[0]
-    assert type(eval(told, {"rk": rk})) is getattr(rk, name)
+    told = WAYS[name].removeprefix("make one: ").partition(", or ")[0]
+    assert type(eval(told, {"rk": rk} | GIVEN)) is getattr(rk, name.rpartition(" ")[-1])
+
+
+@pytest.mark.parametrize("value", GIVEN.values(), ids=GIVEN)
+def test_what_is_given_for_a_system_says_how_it_becomes_one(value):
+    with pytest.raises(TypeError, match=r"^system must be a System; got .*\(make one: .*\)$") as caught:
+        rk.simulate(value)
+    assert WAYS[f"{type(value).__name__} for System"] in str(caught.value)
+
+
+class NoText:
+    """Object without a text."""
+
+    def __repr__(self):
+        raise RuntimeError("no text")
+
+
+ROUND = [1.0]
+ROUND.append(ROUND)
+
+
+@pytest.mark.parametrize(
+    "value", ["a" * 5_000, [1] * 10**6, NoText(), [NoText()], ROUND, 10**5_000, {"a\nb": ROUND}], ids=range(7)
+)
+def test_any_value_is_shown_in_one_short_line(value):
+    assert len(shown(value)) <= 60
+    with pytest.raises(TypeError, match="^angle must be ") as caught:
+        rk.State(angle=[value])
+    assert len(str(caught.value).splitlines()) == 1
+    with pytest.raises((TypeError, ValueError), match="^times must be "):
+        reals("times", value if type(value) is not list else [value, ROUND])
+
+
+def test_a_long_path_is_shown_with_both_ends():
+    assert shown_path(Path("folder/map.png")) == "'folder/map.png'"
+    text = shown_path(Path("start" + "/a" * 5_000 + "/map.png"))
+    assert text.startswith("'start/a/a/")
+    assert text.endswith("/a/a/map.png'")
+    assert len(text) <= 121
 
 
 def test_values_are_shown_in_one_short_line():

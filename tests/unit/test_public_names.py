@@ -1,7 +1,9 @@
 """Public names: all are exported, and each is imported only when it is used."""
 
 import ast
+import inspect
 import json
+import pickle
 import subprocess
 import sys
 from importlib.metadata import version
@@ -120,3 +122,42 @@ def test_citations_are_bibtex_with_balanced_braces():
         "makris-konstantinidis-2003",
     ):
         assert f"{{{source}," in text
+
+
+SYSTEM = rocking.System(rocking.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+LISTED = "simulate() has no argument 't_end' (it has: system, start, cycles, record, duration)"
+UNKNOWN = {
+    "far": (lambda: rocking.simulate(SYSTEM, t_end=3), LISTED),
+    "near": (lambda: rocking.Block(2.0, 0.5, restituion=1), "Block() has no argument 'restituion' (did you mean 'restitution'?)"),
+    "begun": (lambda: rocking.Block(h=2.0), "Block() has no argument 'h' (did you mean 'height'?)"),
+    "method": (lambda: rocking.Block(2.0, 0.5).system(accel=3), "system() has no argument 'accel' (did you mean 'acceleration'?)"),
+    "method of a result": (lambda: rocking.simulate(SYSTEM, cycles=1).at(tim=1), "at() has no argument 'tim' (did you mean 'times'?)"),
+    "theory": (lambda: rocking.theory.energy(angel=1), "energy() has no argument 'angel' (did you mean 'angle'?)"),
+    "plot": (lambda: rocking.plot.modes(1.0, 0.9, amp=2.0), "modes() has no argument 'amp' (did you mean 'amplitude'?)"),
+    "none": (lambda: rocking.cite(style=1), "cite() has no argument 'style' (it has none)"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("call, told", UNKNOWN.values(), ids=UNKNOWN)
+def test_unknown_keyword_is_answered_by_a_similar_one_or_by_all(call, told):
+    with pytest.raises(TypeError) as caught:  # noqa: PT011
+        call()
+    assert str(caught.value) == told
+
+
+def test_error_within_a_call_is_not_taken_for_one_of_its_keywords():
+    with pytest.raises(TypeError, match="^amplitude must be a real number"):
+        rocking.Harmonic("2", period=1.0)
+    with pytest.raises(TypeError, match="missing 1 required positional argument: 'system'"):
+        rocking.simulate()
+
+
+@pytest.mark.parametrize("space", [rocking, rocking.theory, rocking.plot], ids=lambda space: space.__name__)
+def test_public_names_are_pickled_by_name_and_keep_signature_and_docstring(space):
+    for name in space.__all__:
+        value = getattr(space, name)
+        if inspect.isfunction(value):
+            assert pickle.loads(pickle.dumps(value)) is value
+            inner = inspect.unwrap(value)
+            assert inspect.signature(value) == inspect.signature(inner)
+            assert value.__doc__ == inner.__doc__

@@ -123,9 +123,14 @@ def test_digest_is_that_of_the_motions_in_their_order_whatever_their_names():
             motion(),
             {"m": [1.0, 2.0]},
             ValueError,
-            "column 'm' must hold 1 number, one per record; got [1.0, 2.0]",
+            "columns['m'] must hold 1 number, one per record; got [1.0, 2.0]",
         ),
-        (motion(), {"m": ["x"]}, TypeError, "m must be a real number or an array of real numbers; got ['x']"),
+        (
+            motion(),
+            {"m": ["x"]},
+            TypeError,
+            "columns['m'] must be a real number or an array of real numbers; got ['x']",
+        ),
         (
             motion(),
             [1.0],

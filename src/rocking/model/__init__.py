@@ -14,6 +14,7 @@ from rocking.model.atomic_files import (
     check_folder,
     check_replaceable,
     check_writable,
+    path_of,
     renaming,
     replacing,
     replacing_folder,
@@ -42,9 +43,14 @@ from rocking.model.fragility import Fragility, LognormalFit, limit_name, runs_of
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.ground_motion_checks import BASELINES, STEPS
 from rocking.model.ground_motion_doubts import pga_doubt, vertical_sentence
-from rocking.model.incremental_dynamic_analysis import FRACTILES, IncrementalDynamicAnalysis
+from rocking.model.incremental_dynamic_analysis import (
+    FRACTILES,
+    IncrementalDynamicAnalysis,
+    checked_fractions,
+)
 from rocking.model.input_warning import InputWarning, warn_of_input, warn_of_value
 from rocking.model.intensity import INTENSITIES, Intensity, intensity_of
+from rocking.model.keywords import explain, similar
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit import Orbit, orbit_in_words
 from rocking.model.orbit_event import OrbitEvent
@@ -57,6 +63,7 @@ from rocking.model.pulse import KINDS, SINES, Pulse
 from rocking.model.record_file import RecordFile
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.sensitivity import Sensitivity
+from rocking.model.short_texts import both_ends, shown, shown_path
 from rocking.model.si_units import PHYSICAL, SAME_IN_SI, block_attributes
 from rocking.model.start_checks import check_periodic, check_start
 from rocking.model.survey_results import (
@@ -94,10 +101,10 @@ from rocking.model.validation import (
     members,
     one_of,
     pair,
+    real,
     reals,
     refusal,
     refuse_if,
-    shown,
     whole,
     within,
 )
@@ -180,6 +187,7 @@ __all__ = [
     "Verdict",
     "WriteError",
     "block_attributes",
+    "both_ends",
     "check_below_flat",
     "check_between",
     "check_constant_restitution",
@@ -189,10 +197,12 @@ __all__ = [
     "check_replaceable",
     "check_start",
     "check_writable",
+    "checked_fractions",
     "cite",
     "counted",
     "described",
     "exactly_one",
+    "explain",
     "finite",
     "frequency_parameter",
     "housner_restitution",
@@ -208,12 +218,14 @@ __all__ = [
     "orbit_in_words",
     "ordinal",
     "pair",
+    "path_of",
     "percent",
     "percent_with_ends",
     "pga_doubt",
     "plus_minus",
     "quantities",
     "read_only",
+    "real",
     "reals",
     "record_set",
     "refusal",
@@ -225,6 +237,8 @@ __all__ = [
     "resolve_path",
     "runs_of",
     "shown",
+    "shown_path",
+    "similar",
     "stability_of",
     "system_of",
     "takes_files",

@@ -8,9 +8,13 @@ from typing import Any
 import attrs
 import numpy as np
 
+from rocking.model.validation import refusal
+
 
 def read_only(array: np.ndarray) -> np.ndarray:
-    """Make an array read-only and return it."""
+    """Make an array read-only and return it; TypeError for anything else."""
+    if not isinstance(array, np.ndarray):
+        raise TypeError(refusal("an array of a result", "be a NumPy array", array))
     array.flags.writeable = False
     return array
 

@@ -16,6 +16,8 @@ from typing import Any
 from attrs import frozen
 
 from rocking.model.access_rights import PRIVATE, PRIVATE_FOLDER, keep_access, takes_files
+from rocking.model.short_texts import shown_path
+from rocking.model.validation import refusal
 
 FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 """Error numbers of the operating system for a full disk, an exhausted quota and a file that is too large."""
@@ -25,16 +27,25 @@ class WriteError(OSError):
     """Output that cannot be written, for example on a full disk. The message names it and the remedy."""
 
 
+def path_of(name: str, value: Any) -> Path:
+    """Return a path; TypeError, whose message begins with `name`, for anything but a text or an object of `pathlib`."""
+    if not isinstance(value, str | os.PathLike):
+        raise TypeError(refusal(name, "be a path", value))
+    return Path(value)
+
+
 def resolve_path(name: str, path: str | os.PathLike[str]) -> Path:
     """Return the absolute path with all links followed.
 
     Raises
     ------
+    TypeError
+        If `path` is no path.
     OSError
         If no file can have this path. The message begins with `name`.
     """
     try:
-        place = Path(path).resolve()
+        place = path_of(name, path).resolve()
         place.exists()
         if place.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
@@ -42,7 +53,7 @@ def resolve_path(name: str, path: str | os.PathLike[str]) -> Path:
         why = getattr(error, "strerror", None) or error
         if isinstance(error, FileNotFoundError):  # only a missing working directory raises it here
             why = "the working directory does not exist any more"
-        raise OSError(f"{name} must be a path that can exist; got {os.fspath(path)!r}: {why}") from error
+        raise OSError(f"{name} must be a path that can exist; got {shown_path(path)}: {why}") from error
     return place
 
 
@@ -65,16 +76,18 @@ def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[s
     OSError
         If the folder does not exist, permission is denied, or the path exists and is no regular file.
     """
-    path = Path(path)
+    path = path_of(name, path)
     if suffixes and path.suffix.lower() not in suffixes:
-        raise ValueError(f"{name} must end in {', '.join(suffixes)}; got {str(path)!r}")
+        raise ValueError(f"{name} must end in {', '.join(suffixes)}; got {shown_path(path)}")
     place = resolve_path(name, path)
     if not place.parent.is_dir():
-        raise FileNotFoundError(f"{name} must lie in an existing folder; got {str(path)!r}")
+        raise FileNotFoundError(f"{name} must lie in an existing folder; got {shown_path(path)}")
     if place.exists() and not place.is_file():
-        raise OSError(f"{name} must be the path of a file; got {str(path)!r}, which is not a regular file")
+        raise OSError(
+            f"{name} must be the path of a file; got {shown_path(path)}, which is not a regular file"
+        )
     if not takes_files(place.parent) or (place.exists() and not os.access(place, os.W_OK)):
-        raise PermissionError(f"{name} must be writable; got {str(path)!r}, which is not")
+        raise PermissionError(f"{name} must be writable; got {shown_path(path)}, which is not")
     return path
 
 
@@ -86,12 +99,12 @@ def check_folder(name: str, path: str | os.PathLike[str]) -> Path:
     OSError
         If it is neither. The message begins with `name`.
     """
-    path = Path(path)
+    path = path_of(name, path)
     existing = resolve_path(name, path)
     while not existing.exists():
         existing = existing.parent
     if not existing.is_dir() or not takes_files(existing):
-        raise OSError(f"{name} must be a folder that can be written; got {str(path)!r}")
+        raise OSError(f"{name} must be a folder that can be written; got {shown_path(path)}")
     return path
 
 
@@ -157,7 +170,7 @@ def _writing(path: str | os.PathLike[str]) -> Iterator[None]:
         if failure is None or failure.errno is None:
             raise
         raise WriteError(
-            f"{os.fspath(path)!r} cannot be written: {failure.strerror}; existing data are unchanged "
+            f"{shown_path(path)} cannot be written: {failure.strerror}; existing data are unchanged "
             "(free some space, or give another path)"
         ) from error
 
@@ -265,10 +278,10 @@ def check_replaceable(name: str, path: str | os.PathLike[str], made: Made) -> Pa
     path = check_folder(name, path)
     with suppress(FileNotFoundError):  # the working directory may be gone
         if Path.cwd().is_relative_to(path.resolve()):
-            raise OSError(f"{name} must not contain the working directory; got {str(path)!r}")
+            raise OSError(f"{name} must not contain the working directory; got {shown_path(path)}")
     if path.exists() and any(path.iterdir()) and not made.is_in(path):
         raise FileExistsError(
-            f"{name} must be new, empty, or hold only an earlier {made.page} with its files; got {str(path)!r}, "
+            f"{name} must be new, empty, or hold only an earlier {made.page} with its files; got {shown_path(path)}, "
             "which holds other files"
         )
     return path

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.validation import refusal
+from rocking.model.validation import refusal, whole
 
 LEVEL = 0.95
 """Confidence level of the intervals."""
+MAX_COUNT = 10**15
 
 
 def wilson(count: Any, of: Any) -> tuple[Any, Any]:
@@ -52,6 +53,10 @@ def wilson(count: Any, of: Any) -> tuple[Any, Any]:
     return (low.item(), high.item()) if low.ndim == 0 else (low, high)
 
 
+def _count(value: Any) -> int:
+    return whole("count, of and unknown", value, 0, MAX_COUNT)
+
+
 @frozen
 class Share:
     """Fraction estimated from a count, with its 95 % confidence interval.
@@ -68,8 +73,10 @@ class Share:
 
     Raises
     ------
+    TypeError
+        If a value is not a real number.
     ValueError
-        If a number is negative, or `count + unknown` exceeds `of`.
+        If a number is negative or not whole, or `count + unknown` exceeds `of`.
 
     Examples
     --------
@@ -81,15 +88,14 @@ class Share:
     100 % (99.9–100 %)
     """
 
-    count: int = field(converter=int)
-    of: int = field(converter=int)
-    unknown: int = field(default=0, converter=int)
+    count: int = field(converter=_count)
+    of: int = field(converter=_count)
+    unknown: int = field(default=0, converter=_count)
 
     def __attrs_post_init__(self) -> None:
-        if min(self.count, self.of, self.unknown) < 0 or self.count + self.unknown > self.of:
-            counts = (self.count, self.of, self.unknown)
+        if self.count + self.unknown > self.of:
             raise ValueError(
-                refusal("count, of and unknown", "be at least 0, and count + unknown at most of", counts)
+                refusal("count + unknown", f"be at most of = {self.of}", self.count + self.unknown)
             )
 
     @property

@@ -16,7 +16,7 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.ground_motion_doubts import vertical_sentence
 from rocking.model.input_warning import warn_of_value
 from rocking.model.system import Braces, System, critical_angle_for
-from rocking.model.validation import exactly_one, instance, reals, refusal, within
+from rocking.model.validation import MAX_REAL, exactly_one, instance, reals, refusal, within
 
 
 @frozen(repr=False)
@@ -255,7 +255,7 @@ class Block:
 
     def degrees(self, angle: Any) -> Any:
         """Angle θ = Θ θcr in degrees, from a normalised angle Θ."""
-        return np.degrees(self.radians(angle))
+        return self.radians(angle) * (180.0 / math.pi)
 
     def radians_per_second(self, velocity: Any) -> Any:
         """Angular velocity dθ/dt = Θ' θcr α in rad/s, from a normalised velocity Θ'."""
@@ -269,7 +269,7 @@ class Block:
 
     def top_displacement(self, angle: Any) -> Any:
         """Displacement H sin θ along the base of the top corner above the pivot, in metres, from a normalised angle."""
-        return self.height * np.sin(self.radians(angle))
+        return self.height * np.sin(reals("angle", angle, MAX_REAL) * self.critical_angle)
 
     def angle(self, *, radians: Any = None, degrees: Any = None, top_displacement: Any = None) -> Any:
         """Normalised angle Θ = θ/θcr, from exactly one physical quantity.

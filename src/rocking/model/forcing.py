@@ -14,6 +14,9 @@ MAX_AMPLITUDE = 1e3
 FREQUENCIES = (1e-3, 1e3)
 PERIODS = (math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0])
 MAX_PHASE = 1e3
+MAX_TIME = 1e100
+UNITS = (1e-9, 1e9)
+"""Range of the units of acceleration in m/s² and of frequency in 1/s."""
 
 
 def _amplitude(value: float) -> float:
@@ -172,15 +175,15 @@ class Harmonic(Forcing):
 
         Raises
         ------
-        TypeError
-            If `times` holds anything but real numbers.
+        TypeError, ValueError
+            If `times` holds anything but finite real numbers.
 
         Examples
         --------
         >>> Harmonic(amplitude=2.0, period=1.0).acceleration([0.0, 0.5]).tolist()
         [2.0, -2.0]
         """
-        return self.amplitude * np.cos(self.frequency * reals("times", times) + self.phase)
+        return self.amplitude * np.cos(self.frequency * reals("times", times, MAX_TIME) + self.phase)
 
     def __repr__(self) -> str:
         given = f"period={self._period}" if self._frequency is None else f"frequency={self._frequency}"

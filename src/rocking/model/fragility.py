@@ -11,7 +11,7 @@ from attrs import field, frozen
 from rocking.model.block import Block
 from rocking.model.formatting import counted
 from rocking.model.notebook_renderers import NotebookPicture
-from rocking.model.validation import TooShort, reals, refusal
+from rocking.model.validation import TooShort, real, reals, refusal, refuse_if
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,10 +63,29 @@ class LognormalFit:
         return f"median {median}, dispersion {dispersion}{misfit}"
 
     def probability(self, levels: Any) -> Any:
-        """Return the probability at levels for runs that rock: Φ(ln(level/median)/dispersion)."""
+        """Return the probability at levels for runs that rock: Φ(ln(level/median)/dispersion).
+
+        Parameters
+        ----------
+        levels : float or array
+            Levels of the intensity measure, not negative.
+
+        Returns
+        -------
+        float or ndarray
+            Probability, in the shape of `levels`.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If a level is not a real number, or is negative.
+        """
         from scipy.special import ndtr
 
-        return ndtr(np.log(np.asarray(levels) / self.median) / self.dispersion)
+        given = np.asarray(reals("levels", levels))
+        refuse_if((given < 0.0).any(), "levels", "not be negative", levels)
+        with np.errstate(divide="ignore"):  # the probability at 0 is 0
+            return ndtr(np.log(given / self.median) / self.dispersion)
 
     def __str__(self) -> str:
         return self.described()
@@ -121,12 +140,14 @@ class Fragility(NotebookPicture):
 
         Raises
         ------
+        TypeError
+            If `limit` is not a real number.
         ValueError
             If there is no such limit.
         TooShort
             If the data do not determine the fit.
         """
-        wanted = reals("limit", limit)
+        wanted = real("limit", limit)
         for fit in self.fits:
             if fit.limit == wanted:
                 if fit.problem:

@@ -12,7 +12,7 @@ from attrs import evolve, field, frozen
 from rocking.model import ground_motion_checks
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.block_formulas import GRAVITY
-from rocking.model.forcing import BaseMotion
+from rocking.model.forcing import UNITS, BaseMotion
 from rocking.model.ground_motion_checks import BASELINES, MAX_ACCELERATION, MAX_FACTOR
 from rocking.model.ground_motion_doubts import drift_doubt, is_vertical, pga_doubt
 from rocking.model.input_warning import warn_of_value
@@ -253,22 +253,25 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
 
         Parameters
         ----------
-        acceleration : float
-            Unit of acceleration g θcr, in m/s².
-        frequency : float
-            Frequency parameter α, in 1/s.
+        acceleration, frequency : float
+            Unit of acceleration g θcr in m/s², and frequency parameter α in 1/s. Both lie in [1e-9, 1e9].
 
         Returns
         -------
         PiecewiseLinear
-            Samples with the factor 1/(g θcr), and the step times α.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If a unit is not a real number or lies outside its range. Also if the result lies outside its own.
 
         Examples
         --------
         >>> GroundMotion([0.0, 2.0], step=0.1).normalised(acceleration=4.0, frequency=2.0)
         PiecewiseLinear(2 samples, step=0.2, scale=0.25)
         """
-        return PiecewiseLinear(self._samples, step=frequency * self.step, scale=self.factor / acceleration)
+        unit, rate = within("acceleration", acceleration, *UNITS), within("frequency", frequency, *UNITS)
+        return PiecewiseLinear(self._samples, step=rate * self.step, scale=self.factor / unit)
 
     def reversed(self) -> GroundMotion:
         """Return the motion in the opposite direction.

@@ -66,9 +66,7 @@ class IncrementalDynamicAnalysis(NotebookPicture):
         """
         import xarray as xr
 
-        fractions = np.atleast_1d(reals("of", of))
-        if fractions.ndim != 1 or not fractions.size or not ((fractions > 0.0) & (fractions <= 1.0)).all():
-            raise ValueError(refusal("of", "hold fractions in (0, 1]", of))
+        fractions = checked_fractions("of", of)
         peaks = np.sort(self.dataset.peak.transpose("record", "scale").values, axis=0)
         # 0.07 · 100 is 7.000000000000001 in double precision
         places = np.ceil(fractions * len(peaks) - ROUNDING).astype(int) - 1
@@ -104,6 +102,14 @@ class IncrementalDynamicAnalysis(NotebookPicture):
         if first.any():
             median = f"half of them overturn the block at {_level(data, int(first.argmax()))}"
         return f"{int(fell.sum())} of {fell.size} records overturn the block, {median}; {runs_of(data)}"
+
+
+def checked_fractions(name: str, values: Any) -> np.ndarray:
+    """Return fractions in (0, 1] as an array (n,), n >= 1; TypeError or ValueError for anything else."""
+    found = np.atleast_1d(reals(name, values))
+    if found.ndim != 1 or not found.size or not ((found > 0.0) & (found <= 1.0)).all():
+        raise ValueError(refusal(name, "hold fractions in (0, 1]", values))
+    return found
 
 
 def _level(data: Any, place: int) -> str:

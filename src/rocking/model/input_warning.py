@@ -6,6 +6,8 @@ import sys
 import warnings
 from types import FrameType
 
+from rocking.model import keywords
+
 OWN = ("rocking", "attr", "attrs")
 
 
@@ -35,12 +37,17 @@ def warn_of_input(sentence: str) -> None:
 def warn_of_value(sentence: str) -> None:
     """Warn of an argument of the calling method or class; the package, which gives such values on purpose, is not warned."""
     frame: FrameType | None = sys._getframe(2)
-    while frame is not None and frame.f_code.co_filename.startswith("<attrs generated"):
+    while frame is not None and (
+        _is_generated(frame) or frame.f_globals.get("__name__") == keywords.__name__
+    ):
         frame = frame.f_back
     if frame is not None and not _is_own(frame):
         warn_of_input(sentence)
 
 
+def _is_generated(frame: FrameType) -> bool:
+    return frame.f_code.co_filename.startswith("<attrs generated")
+
+
 def _is_own(frame: FrameType) -> bool:
-    generated = frame.f_code.co_filename.startswith("<attrs generated")
-    return generated or str(frame.f_globals.get("__name__")).partition(".")[0] in OWN
+    return _is_generated(frame) or str(frame.f_globals.get("__name__")).partition(".")[0] in OWN

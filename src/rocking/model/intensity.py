@@ -11,7 +11,7 @@ from attrs import frozen
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import RecordSet
-from rocking.model.validation import refusal
+from rocking.model.validation import one_of, refusal
 
 
 def _for_any_block(frequency_parameter: Any, critical_angle: Any) -> Any:
@@ -114,9 +114,7 @@ def intensity_of(name: str, records: RecordSet) -> tuple[Intensity, np.ndarray]:
     ('m/s²', [2.0])
     """
     choices = (*INTENSITIES, *records.columns)
-    if name not in choices:
-        error = ValueError if isinstance(name, str) else TypeError
-        raise error(refusal("intensity", f"be one of {', '.join(map(repr, choices))}", name))
+    one_of("intensity", name, choices)
     if name in records.columns and name in INTENSITIES:
         allowed = "name either a measure or a column of the records, not both"
         raise ValueError(refusal("intensity", allowed, name, "rename the column"))

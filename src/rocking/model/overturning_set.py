@@ -10,11 +10,12 @@ from attrs import field, frozen
 from rocking.model.block import Block
 from rocking.model.formatting import counted, percent
 from rocking.model.ground_motion import GroundMotion
+from rocking.model.ground_motion_checks import MAX_FACTOR
 from rocking.model.intensity import Intensity, intensity_of
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.outcome import Outcome
 from rocking.model.record_set import RecordSet
-from rocking.model.validation import whole, within
+from rocking.model.validation import refuse_if, whole, within
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -198,7 +199,9 @@ class OverturningSet(NotebookPicture):
         level = within("level", level, 1e-300, 1e300)
         measure, values = intensity_of(self.dataset.attrs["intensity"], self.records)
         alpha, slenderness = self.block.frequency_parameter, self.block.critical_angle
-        ground = self.records[record].scaled(measure.factor(level, float(values[record]), alpha, slenderness))
+        factor = measure.factor(level, float(values[record]), alpha, slenderness)
+        refuse_if(factor > MAX_FACTOR, "level", f"scale the record by {MAX_FACTOR:g} at most", level)
+        ground = self.records[record].scaled(factor)
         return ground.reversed() if self.dataset.attrs["polarity"] < 0 else ground
 
     def __str__(self) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model.arrays import ReadOnlyArrays, read_only
-from rocking.model.forcing import Forcing
+from rocking.model.forcing import MAX_TIME, Forcing
 from rocking.model.validation import finite, reals, refusal, within
 
 STEPS = (1e-9, 1e6)
@@ -138,15 +138,15 @@ class PiecewiseLinear(Forcing, ReadOnlyArrays):
 
         Raises
         ------
-        TypeError
-            If `times` holds anything but real numbers.
+        TypeError, ValueError
+            If `times` holds anything but finite real numbers.
 
         Examples
         --------
         >>> float(PiecewiseLinear([0.0, 2.0], step=1.0, scale=-1.0).acceleration(0.5))
         -1.0
         """
-        places = np.asarray(reals("times", times)) / self.step
+        places = np.asarray(reals("times", times, MAX_TIME)) / self.step
         found = np.interp(places, np.arange(self.values.size), self.values, left=0.0, right=0.0)
         return (self.scale * found)[()]
 
@@ -167,8 +167,8 @@ class PiecewiseLinear(Forcing, ReadOnlyArrays):
 
         Raises
         ------
-        TypeError
-            If `times` holds anything but real numbers.
+        TypeError, ValueError
+            If `times` holds anything but finite real numbers.
 
         Examples
         --------
@@ -176,7 +176,7 @@ class PiecewiseLinear(Forcing, ReadOnlyArrays):
         >>> base.displacement([0.0, 1.0, 2.0, 3.0]).tolist()
         [0.0, 0.5, 2.0, 4.0]
         """
-        times = np.asarray(reals("times", times), dtype=float)
+        times = np.asarray(reals("times", times, MAX_TIME))
         a, h = self.scale * self.values, self.step
         velocity, place = velocity_and_displacement(a, h)
         # after the last sample the acceleration is 0

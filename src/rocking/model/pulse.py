@@ -9,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model.arrays import read_only
-from rocking.model.forcing import BaseMotion, Forcing
+from rocking.model.forcing import MAX_TIME, UNITS, BaseMotion, Forcing
 from rocking.model.piecewise_linear import PiecewiseLinear
 from rocking.model.validation import finite, one_of, reals, within
 
@@ -172,8 +172,8 @@ class Pulse(Forcing, BaseMotion):
 
         Raises
         ------
-        TypeError
-            If `times` holds anything but real numbers.
+        TypeError, ValueError
+            If `times` holds anything but finite real numbers.
 
         Examples
         --------
@@ -182,7 +182,7 @@ class Pulse(Forcing, BaseMotion):
         """
         if self.cosine is None:
             return self.samples.acceleration(times)
-        part = np.asarray(reals("times", times)) / self.duration
+        part = np.asarray(reals("times", times, MAX_TIME)) / self.duration
         wave = np.cos(2 * math.pi * self.cosine.turns * part + self.cosine.phase)
         return (self.amplitude * np.where((part >= 0) & (part <= 1), wave, 0.0))[()]
 
@@ -203,8 +203,8 @@ class Pulse(Forcing, BaseMotion):
 
         Raises
         ------
-        TypeError
-            If `times` holds anything but real numbers.
+        TypeError, ValueError
+            If `times` holds anything but finite real numbers.
 
         Examples
         --------
@@ -215,7 +215,7 @@ class Pulse(Forcing, BaseMotion):
         if self.cosine is None:
             return self.samples.displacement(times)
         rate, phase = 2 * math.pi * self.cosine.turns / self.duration, self.cosine.phase
-        times = np.asarray(reals("times", times), dtype=float)
+        times = np.asarray(reals("times", times, MAX_TIME))
         within_it = np.clip(times, 0.0, self.duration)
         angle = rate * within_it + phase
         velocity = (np.sin(angle) - math.sin(phase)) / rate
@@ -230,16 +230,22 @@ class Pulse(Forcing, BaseMotion):
         acceleration : float
             Unit of acceleration g θcr, in m/s².
         frequency : float
-            Frequency parameter α of the block, in 1/s.
+            Frequency parameter α of the block, in 1/s. Both lie in [1e-9, 1e9].
 
         Returns
         -------
         Pulse
             Pulse of the same kind.
 
+        Raises
+        ------
+        TypeError, ValueError
+            If a unit is not a real number or lies outside its range. Also if the result lies outside its own.
+
         Examples
         --------
         >>> Pulse("one-sine", amplitude=3.0, duration=0.5).normalised(acceleration=2.0, frequency=4.0)
         Pulse(kind='one-sine', amplitude=1.5, duration=2.0)
         """
-        return Pulse(self.kind, amplitude=self.amplitude / acceleration, duration=self.duration * frequency)
+        unit, rate = within("acceleration", acceleration, *UNITS), within("frequency", frequency, *UNITS)
+        return Pulse(self.kind, amplitude=self.amplitude / unit, duration=self.duration * rate)

@@ -15,6 +15,7 @@ from rocking.model.formatting import counted
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.ground_motion_doubts import vertical_sentence
 from rocking.model.input_warning import warn_of_input, warn_of_value
+from rocking.model.short_texts import shown
 from rocking.model.validation import members, reals, refusal
 
 ALLOWED = "hold ground motions, one at least"
@@ -36,7 +37,10 @@ def _motions(values: Any) -> tuple[GroundMotion, ...]:
 def _columns(values: Mapping[str, Any]) -> dict[str, np.ndarray]:
     if not isinstance(values, Mapping):
         raise TypeError(refusal("columns", "be a mapping of names to one number per record", values))
-    return {str(name): read_only(np.atleast_1d(reals(str(name), column))) for name, column in values.items()}
+    return {
+        str(name): read_only(np.atleast_1d(reals(f"columns[{shown(name)}]", column)))
+        for name, column in values.items()
+    }
 
 
 @frozen(repr=False, eq=False)
@@ -87,7 +91,7 @@ class RecordSet(Sequence[GroundMotion]):
         for name, column in self.columns.items():
             if column.shape != (len(self.motions),):
                 allowed = f"hold {counted(len(self.motions), 'number')}, one per record"
-                raise ValueError(refusal(f"column {name!r}", allowed, column.tolist()))
+                raise ValueError(refusal(f"columns[{shown(name)}]", allowed, column.tolist()))
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from attrs import field, frozen
 
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
 from rocking.model.input_warning import warn_of_value
-from rocking.model.validation import finite, instance, one_of, pair, refusal, refuse_if, within
+from rocking.model.validation import finite, instance, members, one_of, pair, refusal, refuse_if, within
 
 BRACE_ANGLES = (1e-3, 1e3)
 CRITICAL_ANGLES = (1e-3, 1.2)
@@ -105,8 +105,7 @@ def _braces(value: Braces | None) -> Braces | None:
 def _restitution_table(value: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
     """Return rows of speed and coefficient of restitution, after checking them."""
     allowed = "be rows (speed, coefficient of restitution), the speeds positive and ascending"
-    refuse_if(not isinstance(value, Iterable), "restitution_table", allowed, value)
-    rows = [pair("restitution_table", row, allowed) for row in value]
+    rows = [pair("restitution_table", row, allowed) for row in members("restitution_table", value, allowed)]
     checked = tuple((within("speed", speed, 0, MAX_STATE), _restitution(kept)) for speed, kept in rows)
     speeds = [0.0, *(speed for speed, _ in checked)]
     refuse_if(not all(one < two for one, two in pairwise(speeds)), "restitution_table", allowed, value)

@@ -9,9 +9,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from rocking.model.short_texts import shown
+
 Value = TypeVar("Value")
 
-MAX_SHOWN_LENGTH = 60
+MAX_REAL = 1e300
+"""Largest size of a finite number in an array: a conversion of units does not overflow."""
 WAYS = {
     "State": "make one: rk.State(angle=0.1, velocity=0.0)",
     "Harmonic": "make one: rk.Harmonic(amplitude=2.0, period=1.0)",
@@ -21,8 +24,12 @@ WAYS = {
     "block.system(rk.read_ground_motion(path))",
     "BaseMotion": "read a record by rk.read_ground_motion(path), or make an rk.GroundMotion or rk.Pulse",
     "Orbit": "rk.classify returns one only if the response is periodic; rk.find_orbits searches for all",
+    "Block for System": "make one: block.system(acceleration=3.0, frequency_hz=1.2)",
+    "Harmonic for System": "make one: rk.System(forcing, restitution=0.925)",
+    "Pulse for System": "make one: rk.System(pulse, restitution=0.925), or block.system(pulse) in SI units",
+    "GroundMotion for System": "make one: rk.Block(height=2.0, width=0.5).system(ground_motion)",
 }
-"""Remedies for an argument of the wrong type."""
+"""Remedies for an argument of the wrong type, also by what was given for what."""
 
 
 class TooManyEvents(ValueError):
@@ -97,17 +104,6 @@ class NoOrbit(ValueError):
         return type(self), (str(self), self.phase, self.state, self.residual), self.__dict__
 
 
-def shown(value: object) -> str:
-    """Return a value as one short line, with NumPy numbers as plain numbers."""
-    if isinstance(value, np.generic):
-        value = value.item()
-    try:
-        text = " ".join(repr(value).split())
-    except ValueError:  # an int with more digits than Python converts to text
-        text = "a number with too many digits"
-    return text if len(text) <= MAX_SHOWN_LENGTH else text[: MAX_SHOWN_LENGTH - 1] + "…"
-
-
 def refusal(name: str, allowed: str, value: object, remedy: str = "") -> str:
     """Return the message for an invalid value, in the form used by the whole package."""
     return f"{name} must {allowed}; got {shown(value)}" + (f" ({remedy})" if remedy else "")
@@ -151,7 +147,7 @@ def within(name: str, value: float, low: float, high: float, unit: str = "", if_
     ValueError: restitution must lie in [0, 1]; got 1.2
     """
     interval = f"[{low:.6g}, {high:.6g}]" + (f" {unit}" if unit else "")
-    number = _real(name, value, f"be a real number in {interval}")
+    number = real(name, value, f"be a real number in {interval}")
     if not low <= number <= high:
         raise ValueError(refusal(name, f"lie in {interval}", value, if_below if number < low else ""))
     return number
@@ -160,20 +156,28 @@ def within(name: str, value: float, low: float, high: float, unit: str = "", if_
 def finite(name: str, value: float, largest: float) -> float:
     """Return `value` as a float of size up to `largest`, a bound above all sensible values; errors as in `within`."""
     allowed = f"be a finite real number of size up to {largest:g}"
-    number = _real(name, value, allowed)
+    number = real(name, value, allowed)
     if not abs(number) <= largest:
         raise ValueError(refusal(name, allowed, value))
     return number
 
 
-def _real(name: str, value: float, allowed: str) -> float:
+def number(value: object) -> Any:
+    """Return the real number that a value is, or that an array of shape () holds; None, also for shape (1,)."""
+    if getattr(value, "shape", None) == () and not np.ma.is_masked(value):
+        value = np.asarray(value)[()]
+    return value if isinstance(value, Real) and not isinstance(value, bool | np.timedelta64) else None
+
+
+def real(name: str, value: float, allowed: str = "be a real number") -> float:
     """Return a real number as a float, infinite on overflow; TypeError for other types."""
-    if isinstance(value, bool) or not isinstance(value, Real):
+    found = number(value)
+    if found is None:
         raise TypeError(refusal(name, allowed, value))
     try:
-        return float(value)
+        return float(found)
     except OverflowError:
-        return math.inf if value > 0 else -math.inf
+        return math.inf if found > 0 else -math.inf
 
 
 def whole(name: str, value: int, low: int, high: int) -> int:
@@ -187,34 +191,54 @@ def whole(name: str, value: int, low: int, high: int) -> int:
         If `value` lies outside the range or has a fraction.
     """
     allowed = f"be a whole number in [{low}, {high}]"
-    if isinstance(value, bool) or not isinstance(value, Real):
+    found = number(value)
+    if found is None:
         raise TypeError(refusal(name, allowed, value))
-    if not low <= value <= high or value != int(value):
+    if not low <= found <= high or found != int(found):
         raise ValueError(refusal(name, allowed, value))
-    return int(value)
+    return int(found)
 
 
-def reals(name: str, values: Any) -> Any:
+def reals(name: str, values: Any, largest: float | None = None) -> Any:
     """Return a real number as a float, and anything array-like as an array of floats.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for messages.
+    values : float or array_like
+        Values to check.
+    largest : float, optional
+        Bound of the size of all values, which excludes NaN. Default: 1e300, where NaN and infinities are allowed.
 
     Raises
     ------
     TypeError
         If `values` holds anything but real numbers.
     ValueError
-        If a number exceeds the range of floats, or if values are masked.
+        If a number is too large, or if values are masked.
     """
-    if isinstance(values, Real) and not isinstance(values, bool):
-        try:
-            return float(values)
-        except OverflowError:
-            largest = np.finfo(float).max
-            raise ValueError(refusal(name, f"be a real number of size up to {largest:.6g}", values)) from None
+    found = number(values)
+    if found is None:
+        found = _array(name, values)
+    size = abs(found)
+    wrong = (size > MAX_REAL) & (size != math.inf) if largest is None else np.logical_not(size <= largest)
+    if np.any(wrong):
+        first = found[wrong].flat[0] if isinstance(found, np.ndarray) else values
+        finite_only = "" if largest is None else "finite "
+        raise ValueError(
+            refusal(name, f"be a {finite_only}real number of size up to {largest or MAX_REAL:g}", first)
+        )
+    return found if isinstance(found, np.ndarray) else float(found)
+
+
+def _array(name: str, values: Any) -> np.ndarray:
+    """Return anything array-like as an array of floats; errors as in `reals`."""
     if _is_masked(values):
         raise ValueError(refusal(name, "hold no masked values", values, "leave them out, or fill them"))
     try:
         array = np.asarray(values)
-    except ValueError:
+    except (TypeError, ValueError, RecursionError, MemoryError):
         array = np.asarray(None)
     if array.dtype.kind not in "fiu":
         raise TypeError(refusal(name, "be a real number or an array of real numbers", values))
@@ -223,9 +247,15 @@ def reals(name: str, values: Any) -> Any:
 
 def _is_masked(values: Any) -> bool:
     """Return whether a value is masked in an array, or in a list of arrays at any depth."""
-    if isinstance(values, list | tuple):
-        return any(map(_is_masked, values))
-    return isinstance(values, np.ma.MaskedArray) and bool(np.ma.is_masked(values))
+    waiting, seen = [values], set()
+    while waiting:
+        found = waiting.pop()
+        if isinstance(found, list | tuple) and id(found) not in seen:
+            seen.add(id(found))  # a list may contain itself
+            waiting += found
+        elif isinstance(found, np.ma.MaskedArray) and np.ma.is_masked(found):
+            return True
+    return False
 
 
 def members(name: str, values: Any, allowed: str) -> tuple[Any, ...]:
@@ -250,7 +280,8 @@ def instance(name: str, value: Value, kind: type) -> Value:
     """Return `value` if it is an instance of `kind`; TypeError for anything else."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIO" else "a"
-        raise TypeError(refusal(name, f"be {article} {kind.__name__}", value, WAYS.get(kind.__name__, "")))
+        way = WAYS.get(f"{type(value).__name__} for {kind.__name__}") or WAYS.get(kind.__name__, "")
+        raise TypeError(refusal(name, f"be {article} {kind.__name__}", value, way))
     return value
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from attrs import frozen
 
-from rocking.model import Block, NotebookPicture, Outcome, counted
+from rocking.model import Block, NotebookPicture, Outcome, counted, instance
 from rocking.motion.dataset import to_dataset
 from rocking.motion.trajectory import Trajectory
 from rocking.motion.validity import Validity, validity
@@ -134,7 +134,7 @@ class Motion(Trajectory, NotebookPicture):
         >>> motion.validity(block).friction > 0.2
         True
         """
-        return validity(self, block, full=full)
+        return validity(self, block, full=instance("full", full, bool))
 
     @property
     def doubt(self) -> str:

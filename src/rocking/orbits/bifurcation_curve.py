@@ -11,16 +11,7 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.model import (
-    NotebookPicture,
-    ReadOnlyArrays,
-    instance,
-    one_of,
-    pair,
-    read_only,
-    refusal,
-    whole,
-)
+from rocking.model import NotebookPicture, ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
 from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of

@@ -92,7 +92,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     >>> round(abs(orbit.multipliers[0]), 6)  # e², because they are complex
     0.855625
     """
-    check_periodic(system, instance("start", guess, State))
+    check_periodic(system, instance("guess", guess, State))
     period = whole("period", period, 1, MAX_PERIOD)
     motion = simulate(system, guess, cycles=period + 1)
     if motion.outcome is Outcome.OVERTURNED:

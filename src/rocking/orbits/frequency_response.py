@@ -27,13 +27,12 @@ from rocking.model import (
 from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
-from rocking.orbits.frequency_response_result import FrequencyResponse
+from rocking.orbits.frequency_response_result import MAX_CYCLES_IN_MODE, FrequencyResponse
 from rocking.orbits.parameter import check_range, check_step
 from rocking.response import classify
 from rocking.theory import symmetric_modes
 
 MAX_VALUES = 100_000
-MAX_CYCLES_IN_MODE = 99
 # Largest difference of identical phases, and of the parameter at identical special points.
 SAME = 1e-6
 

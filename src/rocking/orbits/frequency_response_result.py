@@ -10,12 +10,14 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model import NotebookPicture, ReadOnlyArrays, described, named, read_only, whole
 from rocking.orbits.branch import Branch
 from rocking.orbits.dataset_attributes import LONG_NAMES, coordinate_of, kinds_of
 
 if TYPE_CHECKING:
     import xarray as xr
+
+MAX_CYCLES_IN_MODE = 99
 
 
 @frozen(eq=False)
@@ -61,14 +63,20 @@ class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
         Parameters
         ----------
         n : int
-            Number of forcing cycles per response period.
+            Number of forcing cycles per response period, in [1, 99].
 
         Returns
         -------
         tuple of Branch
             Branches; empty if none was found.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If `n` is not a whole number in its range.
         """
-        return tuple(branch for branch in self.branches if branch.period == n)
+        period = whole("n", n, 1, MAX_CYCLES_IN_MODE)
+        return tuple(branch for branch in self.branches if branch.period == period)
 
     def to_xarray(self) -> xr.Dataset:
         """Return the frequency response as a dataset.

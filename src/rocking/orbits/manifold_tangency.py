@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import saddle_manifold as kernel
-from rocking.model import System, refusal, refuse_if
+from rocking.model import System, instance, refusal, refuse_if
 from rocking.orbits.parameter import with_value
 from rocking.orbits.saddle_orbits import check, parameters
 
@@ -142,7 +142,7 @@ def tangency_amplitude(system: System) -> float:
     >>> round(rk.tangency_amplitude(rk.System(rk.Harmonic(amplitude=1.0, period=1.0), restitution=0.8)), 8)
     3.68781307
     """
-    check(with_value(system, "amplitude", 0.0))
+    check(with_value(instance("system", system, System), "amplitude", 0.0))
     if system.restitution == 1.0:
         raise ValueError(
             refusal(

@@ -11,15 +11,7 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import saddle_manifold as kernel
-from rocking.model import (
-    MAX_PHASE,
-    NotebookPicture,
-    ReadOnlyArrays,
-    System,
-    read_only,
-    whole,
-    within,
-)
+from rocking.model import MAX_PHASE, NotebookPicture, ReadOnlyArrays, System, read_only, whole, within
 from rocking.orbits.manifold_growth import grow, pieces, region
 from rocking.orbits.saddle_orbits import check, parameters, response, saddle, too_many_impacts
 

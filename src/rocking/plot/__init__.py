@@ -14,6 +14,7 @@ from rocking.model import (
     RepeatabilityMap,
     SafeBasin,
     Verdict,
+    explain,
     notebook_renderers,
 )
 from rocking.motion import Motion
@@ -147,3 +148,5 @@ for kind, draw in (
     ("map", parametric_map),
 ):
     notebook_renderers.register(kind, picture(draw))
+
+explain(globals(), __all__)

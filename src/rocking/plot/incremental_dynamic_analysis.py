@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import FRACTILES, IncrementalDynamicAnalysis, counted, instance
+from rocking.model import FRACTILES, IncrementalDynamicAnalysis, checked_fractions, counted, instance, refusal
 from rocking.plot.parts import style
 from rocking.plot.parts.intensity import level_label
 
@@ -59,11 +59,10 @@ def incremental_dynamic_analysis(
     'largest angle $|\\theta|$ (°)'
     """
     instance("found", found, IncrementalDynamicAnalysis)
-    thick = found.fractiles(fractiles)
-    if len(thick) > len(SHADES):
-        from rocking.model import refusal
-
+    fractions = checked_fractions("fractiles", fractiles)
+    if len(fractions) > len(SHADES):
         raise ValueError(refusal("fractiles", f"hold 1 to {len(SHADES)} fractions", fractiles))
+    thick = found.fractiles(fractions)
     ax = style.own(ax, height=3.3)
     style.block_title(ax, found.block, full=found.dataset.attrs.get("model") == "full")
     data = found.dataset

@@ -102,6 +102,11 @@ def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
     -------
     matplotlib Axes
 
+    Raises
+    ------
+    TypeError
+        If an argument has the wrong type.
+
     See Also
     --------
     manifolds : Plot the manifolds of a damped, forced block.

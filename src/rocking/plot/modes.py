@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from rocking.model import MAX_AMPLITUDE, Block, Mode, one_of, within
+from rocking.model import MAX_AMPLITUDE, PERIODS, Block, Mode, one_of, within
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
 from rocking.theory import (
@@ -88,6 +88,7 @@ def modes(
     """
     one_of("quantity", quantity, ("velocity", "phase"))
     marked = 0.0 if amplitude is None else within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
+    period, restitution = within("period", period, *PERIODS), within("restitution", restitution, 0.0, 1.0)
     here = symmetric_modes(marked, period, restitution, n)
     begins = existence_amplitude(period, restitution, n)
     breaks = symmetry_breaking_amplitude(period, restitution, n)

@@ -32,6 +32,11 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
     -------
     matplotlib Figure
 
+    Raises
+    ------
+    TypeError
+        If an argument has the wrong type.
+
     See Also
     --------
     time_history : Plot the time history alone.

@@ -165,9 +165,11 @@ def _draw_median(ax: Axes, places: np.ndarray, lines: list[Line], colour: str) -
 
 def _check(found: Any) -> None:
     """Raise TypeError or ValueError for a dataset that is no rocking spectrum over its axes."""
-    peak = getattr(found, "peak", None)
-    if peak is None or not all(hasattr(found, name) for name in ("outcome", "certified")):
+    import xarray as xr
+
+    if not isinstance(found, xr.Dataset) or not {"peak", "outcome", "certified"} <= set(found.data_vars):
         raise TypeError(refusal("found", "be a dataset as rocking_spectrum gives it", found))
+    peak = found.peak
     others = [str(name) for name in peak.dims if name not in LINES]
     if others:
         remedy = f"select one value first, such as found.isel({others[0]}=0)"

@@ -33,6 +33,13 @@ def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 
     -------
     matplotlib Axes
 
+    Raises
+    ------
+    TypeError
+        If an argument has the wrong type.
+    ValueError
+        If `lean` lies outside its range.
+
     See Also
     --------
     animation : Animate a motion of the block.

@@ -7,7 +7,7 @@ import os
 import stat
 from pathlib import Path
 
-from rocking.model import refusal
+from rocking.model import both_ends, refusal
 from rocking.records.channel import RecordError
 
 MAX_BYTES = 300_000_000
@@ -31,7 +31,7 @@ class Content:
         if not isinstance(name, str):
             raise TypeError(refusal("name", "be a str", name))
         self.name = name
-        shown = " ".join(name.split())
+        shown = both_ends(name)
         if len(data) > MAX_BYTES:
             raise RecordError(f"{shown}: larger than {MAX_BYTES // 1_000_000} MB")
         self._take(data, shown)
@@ -39,7 +39,7 @@ class Content:
     def _read(self, place: Path) -> None:
         """Read a file."""
         self.name = place.name
-        shown = " ".join(os.fspath(place).split())
+        shown = both_ends(os.fspath(place))
         try:
             about = place.stat()
             if stat.S_ISDIR(about.st_mode):

@@ -18,7 +18,7 @@ INSTALL = "run pip install '.[obspy]' in a copy of the repository"
 
 def is_stream(source: object) -> bool:
     """Return whether a value is a Stream or a Trace, or looks like one."""
-    return hasattr(source, "traces") or (hasattr(source, "data") and hasattr(source, "stats"))
+    return hasattr(source, "traces") or (hasattr(source, "stats") and hasattr(source, "data"))
 
 
 def read(content: Content) -> list[Channel]:

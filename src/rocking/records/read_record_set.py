@@ -18,6 +18,7 @@ from rocking.model import (
     listed,
     members,
     refusal,
+    resolve_path,
     vertical_sentence,
     warn_of_input,
 )
@@ -72,6 +73,8 @@ def read_record_set(
         Unit and step of a file must be stated once, by the file or by an argument.
     TypeError, ValueError
         If an argument is of the wrong type or lies outside its range.
+    OSError
+        If no file can have the path.
 
     Warns
     -----
@@ -99,6 +102,7 @@ def read_record_set(
     given = {"units": units, "step": step, "baseline": baseline}
     if isinstance(source, str | os.PathLike):
         path = Path(source)
+        resolve_path("source", path)
         if path.is_dir():
             return _set(_of_files(_folder(path), given, _way_out_of(path)), path.name)
         if is_table(path):

@@ -6,7 +6,7 @@ from typing import Literal
 
 from attrs import evolve
 
-from rocking.model import System, Verdict, refuse_if
+from rocking.model import System, Verdict, one_of
 from rocking.proof import check_provable, prove
 
 Wanted = bool | Literal["orbit"]
@@ -22,7 +22,8 @@ def check_wanted(wanted: Wanted, system: System) -> None:
     ValueError
         If the block is not slender, or `wanted` is neither a boolean nor "orbit".
     """
-    refuse_if(wanted not in (False, True, "orbit"), "prove", 'be False, True or "orbit"', wanted)
+    if not isinstance(wanted, bool):
+        one_of("prove", wanted, ("orbit",))
     if wanted:
         check_provable(system)
 

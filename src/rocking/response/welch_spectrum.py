@@ -100,6 +100,7 @@ def spectral_density(
     (['f/3', 'f', '5f/3', '7f/3'], True)
     """
     cycles = _check_motion(motion, transient)
+    transient = motion.cycles - cycles
     if samples is not None:
         samples = whole("samples", samples, MIN_SAMPLES, MAX_SAMPLES)
         refuse_if(samples % 2, "samples", "be even", samples)
@@ -191,10 +192,12 @@ def _segment(segment: int | None, cycles: int, repeats: int | None) -> int:
 def _taper(window: str | tuple, length: int) -> Taper:
     from scipy.signal import get_window
 
+    if not isinstance(window, str | tuple):
+        raise TypeError(refusal("window", "be a window of scipy.signal.get_window", window))
     try:
         with np.errstate(all="ignore"):
             weights = get_window(window, length)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, IndexError):
         raise ValueError(refusal("window", "be a window of scipy.signal.get_window", window)) from None
     refuse_if(not np.isfinite(weights).all(), "window", "have finite weights", window)
     taper = Taper(weights)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import ChaosShare, Share, check_below_flat, refusal, whole
+from rocking.model import RANGES, ChaosShare, Share, check_below_flat, real, refusal, whole, within
 from rocking.response import KINDS
 from rocking.survey.harmonic_spec import HarmonicSpec, check_quantity, coordinate, points
 from rocking.survey.measures.kind import interval_variables, outcome
@@ -90,11 +90,9 @@ def chaos_share(
     spans = {"period": span("period", period), "amplitude": span("amplitude", amplitude)}
     fixed = {}
     if brace_angle is not None:
-        from rocking.model import Braces
-
-        braces = Braces(brace_angle, brace_restitution)
-        fixed = {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
-    elif brace_restitution != 1.0:
+        given = {"brace_angle": brace_angle, "brace_restitution": brace_restitution}
+        fixed = {name: within(name, value, *RANGES[name]) for name, value in given.items()}
+    elif real("brace_restitution", brace_restitution) != 1.0:
         raise TypeError(refusal("brace_restitution", "be used with brace_angle", brace_restitution))
     if critical_angle is not None:
         fixed["critical_angle"] = float(check_quantity("critical_angle", critical_angle))

@@ -186,7 +186,7 @@ def fragility(
 
 
 def _limits(values: Any) -> np.ndarray:
-    found = np.atleast_1d(reals("limits", values)) if np.size(values) else np.empty(0)
+    found = np.atleast_1d(reals("limits", values))
     allowed = f"hold numbers in (0, {MAX_LIMIT:g}], ascending"
     if (
         found.ndim != 1

@@ -121,7 +121,7 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> HarmonicSpec:
     axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
     fixed = {name: value for name, value in checked.items() if not isinstance(value, np.ndarray)}
     if len(axes) != count:
-        got, more = " and ".join(axes) or "none", len(axes) - count
+        got, more = " and ".join(axes) or f"none of {', '.join(given)}", len(axes) - count
         way_out = f" (give {'one' if more == 1 else more} of them as a number)" if more > 0 else ""
         raise TypeError(f"{what} needs {_counted(count)}; got {got}{way_out}")
     asked_for = HarmonicSpec(axes, fixed)

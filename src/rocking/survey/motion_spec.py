@@ -39,7 +39,6 @@ QUANTITIES: dict[str, tuple[str, str, str, tuple[float, float]]] = {
     "scale": ("s", "factor of the ground motion", "1", (1e-9, MAX_LEVEL)),
 }
 """Symbol, description, unit and range of each quantity, in the order of the dimensions; records come first."""
-REQUIRED = ("size", "slenderness")
 
 
 class Runs(NamedTuple):
@@ -151,7 +150,7 @@ def motion_question(
     checked: dict[str, Any] = {
         name: number_or_axis(name, given.get(name), span)
         for name, span in spans.items()
-        if given.get(name) is not None or name in REQUIRED
+        if given.get(name) is not None or name != "restitution"
     }
     axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
     fixed = {name: value for name, value in checked.items() if name not in axes}

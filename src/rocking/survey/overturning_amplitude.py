@@ -14,6 +14,7 @@ from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.harmonic_spec import coordinate, question
 from rocking.survey.measures.kind import outcome
 from rocking.survey.sampling.overturning_scan import Scan, refined
+from rocking.survey.spec import is_axis
 from rocking.survey.store.dataset import attributes
 from rocking.theory import heteroclinic_amplitude
 
@@ -98,7 +99,7 @@ def overturning_amplitude(
     """
     count = whole("phases", phases, 1, MAX_PHASES)
     amplitude = SCANNED if amplitude is None else amplitude
-    if np.ndim(amplitude) != 1:
+    if not is_axis(amplitude):
         raise TypeError(refusal("amplitude", "be an axis of amplitudes to scan, ascending", amplitude))
     measure = outcome(max_cycles, max_period, TITLE)
     turned = np.arange(count) * (np.pi / count)
@@ -110,7 +111,7 @@ def overturning_amplitude(
         "period": period,
         "critical_angle": critical_angle,
     }
-    asked = question(given, sum(np.ndim(value) > 0 for value in given.values()), "an overturning amplitude")
+    asked = question(given, sum(map(is_axis, given.values())), "an overturning amplitude")
     found = run_survey(asked, measure, store, executor, progress=progress, repair=repair)
     kinds = found.kind if count > 1 else found.kind.expand_dims(phase=turned)
     over = [name for name in ("restitution", "critical_angle", "frequency", "period") if name in asked.axes]

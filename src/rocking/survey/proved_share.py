@@ -84,9 +84,11 @@ def proved_share(found: Dataset, points: int = 300, seed: int = 0) -> ProvedShar
     >>> shares.orbits.count == shares.orbits.of
     True
     """
+    from xarray import Dataset
+
     points = whole("points", points, 1, MAX_POINTS)
     random = generator(seed)
-    if not hasattr(found, "dims"):
+    if not isinstance(found, Dataset) or "kind" not in found:
         raise TypeError(refusal("found", "be a map of responses", found))
     periodic = found["kind"] == Kind.PERIODIC.code
     places = np.argwhere(periodic.values)

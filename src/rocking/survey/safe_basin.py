@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import RANGES, SafeBasin, Share, refusal, whole
+from rocking.model import RANGES, SafeBasin, Share, instance, refusal, whole
 from rocking.survey.harmonic_spec import HarmonicSpec, Points, coordinate, points, question
 from rocking.survey.measures.kind import interval_variables, outcome
 from rocking.survey.sampling.random_points import MAX_SAMPLES, counted, generator, sampled, span
@@ -115,7 +115,9 @@ def safe_basin(
     low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
     starts = generator(seed).uniform(low, high, (whole("samples", samples, 1, MAX_SAMPLES), 2))
     amplitudes, kinds = asked.axes["amplitude"].tolist(), []
-    with counted("initial states" if progress else None, len(amplitudes) * len(starts)) as add:
+    with counted(
+        "initial states" if instance("progress", progress, bool) else None, len(amplitudes) * len(starts)
+    ) as add:
         for value in amplitudes:
             kinds.append(sampled(_placed(asked, value, starts), measure, executor)["kind"])
             add(len(starts))

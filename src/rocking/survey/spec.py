@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from numbers import Real
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -98,7 +97,7 @@ def number_or_axis(name: str, value: Any, span: tuple[float, float]) -> float | 
 
 
 def is_axis(value: Any) -> bool:
-    """Return whether a value is a list or an array, not a number."""
-    if isinstance(value, list | tuple):
-        return True
-    return not isinstance(value, Real | str) and np.ndim(value) > 0
+    """Return whether a value is a sequence or an array, not a number."""
+    return (isinstance(value, Sequence) and not isinstance(value, str | bytes)) or getattr(
+        value, "ndim", 0
+    ) > 0

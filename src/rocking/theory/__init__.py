@@ -1,5 +1,6 @@
 """Closed-form results for numbers or arrays: modes, Melnikov's function, tangency, free rocking, pulses, design rules."""
 
+from rocking.model import explain
 from rocking.theory.contact_restitution import contact_restitution
 from rocking.theory.design_rules import design_angle, equivalent_damping, pulse_overturning_rule
 from rocking.theory.dimensional import (
@@ -77,3 +78,5 @@ __all__ = [
     "symmetry_breaking_amplitude",
     "unstable_manifold_velocity",
 ]
+
+explain(globals(), __all__)

@@ -10,6 +10,8 @@ import numpy as np
 from rocking.model import MAX_AMPLITUDE, PERIODS, one_of, reals, refusal
 
 MAX_CYCLES = 9_999
+MAX_SIZE = 1e100
+"""Largest size of an angle, a velocity, a phase or a time: its square does not overflow."""
 ORBITS = {"upper": 1.0, "lower": -1.0}
 
 
@@ -21,6 +23,17 @@ def between(name: str, values: Any, low: float, high: float) -> Any:
         first = array[outside].flat[0] if array.ndim else values
         raise ValueError(refusal(name, f"lie in [{low:.6g}, {high:.6g}]", first))
     return array
+
+
+def together(**values: Any) -> list[Any]:
+    """Return checked arguments, by name; ValueError if their shapes do not broadcast."""
+    shapes = [np.shape(value) for value in values.values()]
+    try:
+        np.broadcast_shapes(*shapes)
+    except ValueError:
+        got = ", ".join(map(str, shapes))
+        raise ValueError(f"{', '.join(values)} must have shapes that broadcast; got {got}") from None
+    return [np.asarray(value) for value in values.values()]
 
 
 def amplitudes(values: Any) -> Any:
@@ -41,20 +54,27 @@ def restitutions(values: Any) -> Any:
 def odd(values: Any) -> Any:
     """Return the numbers n of forcing cycles of symmetric modes, checked to be odd."""
     array = np.asarray(reals("n", values))
-    wrong = ~((array >= 1) & (array <= MAX_CYCLES) & (array % 2 == 1))
+    with np.errstate(invalid="ignore"):  # infinity has no remainder
+        wrong = ~((array >= 1) & (array <= MAX_CYCLES) & (array % 2 == 1))
     if wrong.any():
         first = array[wrong].flat[0] if array.ndim else values
         allowed = f"be an odd whole number in [1, {MAX_CYCLES}]"
+        even = (0.5 * float(array[wrong].flat[0])).is_integer()
         remedy = (
             "no mode with even n is symmetric: half a response later the forcing is unchanged, not reversed"
         )
-        raise ValueError(refusal("n", allowed, first, remedy if first % 2 == 0 else ""))
+        raise ValueError(refusal("n", allowed, first, remedy if even else ""))
     return array
 
 
 def side_of(orbit: str) -> float:
     """Return the sign of the velocity on one of the two heteroclinic orbits."""
     return ORBITS[one_of("orbit", orbit, tuple(ORBITS))]
+
+
+def sizes(name: str, values: Any) -> Any:
+    """Return angles, velocities, phases or times, checked to be finite and of size up to 1e100."""
+    return np.asarray(reals(name, values, MAX_SIZE))
 
 
 def plain(values: Any) -> Any:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rocking.model import refusal
-from rocking.theory.arguments import between, plain
+from rocking.theory.arguments import between, plain, together
 
 
 def contact_restitution(critical_angle: Any, fraction: Any) -> Any:
@@ -50,7 +50,7 @@ def contact_restitution(critical_angle: Any, fraction: Any) -> Any:
     [1.0, 0.954887, 0.911765]
     """
     angle = between("critical_angle", critical_angle, 0.0, math.pi / 2)
-    k = between("fraction", fraction, 0.0, 1.0)
+    angle, k = together(critical_angle=angle, fraction=between("fraction", fraction, 0.0, 1.0))
     square = np.sin(angle) ** 2
     found = np.asarray((4.0 - 3.0 * (1.0 + k) * square) / (4.0 - 3.0 * (1.0 - k) * square))
     if (found < 0.0).any():

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from rocking.model import Block, instance, reals
-from rocking.theory.arguments import plain
+from rocking.theory.arguments import plain, sizes, together
 from rocking.theory.melnikov import damping
 from rocking.theory.unforced_block import CRITICAL_ENERGY, energy, heteroclinic_orbit
 
@@ -37,6 +37,8 @@ def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) ->
     ------
     TypeError
         If `block` is not a Block, or another argument is not a real number or an array of real numbers.
+    ValueError
+        If a size exceeds about 1e100, or if the shapes do not broadcast.
 
     See Also
     --------
@@ -49,9 +51,12 @@ def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) ->
     >>> round(rk.theory.physical_acceleration(block, 0.1, 0.0), 4)
     -1.0345
     """
-    angle = np.asarray(instance("block", block, Block).angle(radians=radians))
-    amplitude = block.amplitude(reals("base_acceleration", base_acceleration))
-    return plain(_per_inertia(block) * (angle - np.sign(angle) - np.asarray(amplitude)))
+    instance("block", block, Block)
+    radians, base = together(
+        radians=sizes("radians", radians), base_acceleration=sizes("base_acceleration", base_acceleration)
+    )
+    angle = np.asarray(block.angle(radians=radians))
+    return plain(_per_inertia(block) * (angle - np.sign(angle) - np.asarray(block.amplitude(base))))
 
 
 def physical_damping(block: Block, radians: Any, radians_per_second: Any, width: float) -> Any:
@@ -93,8 +98,8 @@ def physical_damping(block: Block, radians: Any, radians_per_second: Any, width:
     >>> rk.theory.physical_damping(block, 0.0, 0.3, width=1e-3) < 0
     True
     """
-    angle = instance("block", block, Block).angle(radians=radians)
-    return _per_inertia(block) * damping(angle, block.velocity(radians_per_second), block.restitution, width)
+    angle, velocity = _state(block, radians, radians_per_second)
+    return _per_inertia(block) * damping(angle, velocity, block.restitution, width)
 
 
 def physical_energy(block: Block, radians: Any, radians_per_second: Any) -> Any:
@@ -118,6 +123,8 @@ def physical_energy(block: Block, radians: Any, radians_per_second: Any) -> Any:
     ------
     TypeError
         If `block` is not a Block, or another argument is not a real number or an array of real numbers.
+    ValueError
+        If a size exceeds about 1e100, or if the shapes do not broadcast.
 
     See Also
     --------
@@ -132,8 +139,8 @@ def physical_energy(block: Block, radians: Any, radians_per_second: Any) -> Any:
     >>> round(at_rest / rk.theory.physical_critical_energy(block), 12)
     1.0
     """
-    angle = instance("block", block, Block).angle(radians=radians)
-    return _per_inertia(block) * block.critical_angle * energy(angle, block.velocity(radians_per_second))
+    state = _state(block, radians, radians_per_second)
+    return _per_inertia(block) * block.critical_angle * energy(*state)
 
 
 def physical_critical_energy(block: Block) -> float:
@@ -211,6 +218,15 @@ def physical_heteroclinic_orbit(block: Block, seconds: Any, orbit: str = "upper"
     reals("seconds", seconds)
     angle, velocity = heteroclinic_orbit(instance("block", block, Block).time(seconds), orbit)
     return block.radians(angle), block.radians_per_second(velocity)
+
+
+def _state(block: Block, radians: Any, radians_per_second: Any) -> tuple[Any, Any]:
+    """Return Θ and Θ' of states in radians and rad/s, after checking them."""
+    instance("block", block, Block)
+    angle, velocity = together(
+        radians=sizes("radians", radians), radians_per_second=sizes("radians_per_second", radians_per_second)
+    )
+    return block.angle(radians=angle), block.velocity(velocity)
 
 
 def _per_inertia(block: Block) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rocking.model import within
-from rocking.theory.arguments import between, plain, restitutions
+from rocking.theory.arguments import between, plain, restitutions, together
 
 # Arguments below this are summed by the power series.
 SMALL = 1e-3
@@ -120,7 +120,10 @@ def free_peaks(angle: Any, restitution: Any, impacts: Any) -> Any:
     [0.4, 0.2]
     """
     speed = np.asarray(free_impact_speed(angle))
-    energy = (speed * restitutions(restitution) ** between("impacts", impacts, 0, 1e9)) ** 2
+    speed, e, count = together(
+        angle=speed, restitution=restitutions(restitution), impacts=between("impacts", impacts, 0, 1e9)
+    )
+    energy = (speed * e**count) ** 2
     return plain(energy / (1.0 + np.sqrt(1.0 - energy)))
 
 

@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.orbits import saddle_manifold
-from rocking.model import reals
-from rocking.theory.arguments import amplitudes, frequencies, plain, restitutions, side_of
+from rocking.theory.arguments import amplitudes, frequencies, plain, restitutions, side_of, sizes, together
 
 
 def heteroclinic_amplitude(period: Any, restitution: Any) -> Any:
@@ -54,7 +53,7 @@ def heteroclinic_amplitude(period: Any, restitution: Any) -> Any:
     >>> round(heteroclinic_amplitude(1.0, 0.8), 9), round(heteroclinic_amplitude(2.0, 0.925), 9)
     (3.68781307, 0.42035398)
     """
-    omega, e = frequencies(period), restitutions(restitution)
+    omega, e = together(period=frequencies(period), restitution=restitutions(restitution))
     lost = 1.0 - e
     return plain((1.0 + omega * omega) * lost / np.hypot(1.0 + e, omega * lost))
 
@@ -209,14 +208,16 @@ def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> A
     True
     """
     angle, velocity = _swing(phase, amplitude, period)
-    e = restitutions(restitution)
+    angle, velocity, e = together(phase=angle, amplitude=velocity, restitution=restitutions(restitution))
     lost = 1.0 - e
     return plain(-lost - ((1.0 + e) * angle + lost * velocity))
 
 
 def _swing(phase: Any, amplitude: Any, period: Any) -> tuple[Any, Any]:
     """Return β cos ψ and −βΩ sin ψ: the deviation of a saddle orbit from ±1, and its velocity."""
-    forcing = np.broadcast_arrays(amplitudes(amplitude), frequencies(period), reals("phase", phase))
+    forcing = np.broadcast_arrays(
+        *together(amplitude=amplitudes(amplitude), period=frequencies(period), phase=sizes("phase", phase))
+    )
     swing = np.empty((*forcing[0].shape, 2))
     saddle_manifold.swings(
         *(np.ascontiguousarray(each, float).ravel() for each in forcing), swing.reshape(-1, 2)

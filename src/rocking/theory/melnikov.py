@@ -16,8 +16,16 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import MAX_AMPLITUDE, PERIODS, finite, reals, within
-from rocking.theory.arguments import amplitudes, between, frequencies, plain, restitutions, side_of
+from rocking.model import MAX_AMPLITUDE, PERIODS, finite, within
+from rocking.theory.arguments import (
+    amplitudes,
+    frequencies,
+    plain,
+    restitutions,
+    side_of,
+    sizes,
+    together,
+)
 from rocking.theory.unforced_block import heteroclinic_orbit
 
 WIDTHS = (1e-12, 1.0)
@@ -60,7 +68,11 @@ def damping(angle: Any, velocity: Any, restitution: Any, width: float) -> Any:
     (-1.8, -0.0)
     """
     width = within("width", width, *WIDTHS)
-    angle, velocity = np.asarray(reals("angle", angle)), np.asarray(reals("velocity", velocity))
+    angle, velocity, restitution = together(
+        angle=sizes("angle", angle),
+        velocity=sizes("velocity", velocity),
+        restitution=restitutions(restitution),
+    )
     delta = np.maximum(0.0, 1.0 - np.abs(angle) / width) / width
     return plain(-impact_loss(np.abs(velocity), restitution) * np.sign(velocity) * delta)
 
@@ -94,7 +106,7 @@ def impact_loss(velocity: Any, restitution: Any) -> Any:
     >>> round(impact_loss(1.0, 0.8), 12)
     0.18
     """
-    velocity, e = np.asarray(reals("velocity", velocity)), restitutions(restitution)
+    velocity, e = together(velocity=sizes("velocity", velocity), restitution=restitutions(restitution))
     return plain(0.5 * (1.0 - e) * (1.0 + e) * velocity * velocity)
 
 
@@ -136,10 +148,14 @@ def melnikov_function(time: Any, amplitude: Any, period: Any, restitution: Any, 
     >>> abs(rk.theory.melnikov_function(0.5, threshold, 1.0, 0.8)) < 1e-15
     True
     """
-    side, time = side_of(orbit), np.asarray(reals("time", time))
-    omega, a = frequencies(period), amplitudes(amplitude)
-    work = -2.0 * side * a * np.cos(omega * time) / (1.0 + omega * omega)
-    return plain(work - impact_loss(1.0, restitution))
+    time, a, omega, e = together(
+        time=sizes("time", time),
+        amplitude=amplitudes(amplitude),
+        period=frequencies(period),
+        restitution=restitutions(restitution),
+    )
+    work = -2.0 * side_of(orbit) * a * np.cos(omega * time) / (1.0 + omega * omega)
+    return plain(work - impact_loss(1.0, e))
 
 
 def melnikov_integral(
@@ -253,7 +269,5 @@ def melnikov_amplitude(period: Any, restitution: Any) -> Any:
     >>> round(melnikov_amplitude(1.0, 0.8), 9)
     3.643057584
     """
-    omega = frequencies(period)
-    return plain(
-        0.5 * impact_loss(1.0, between("restitution", restitution, 0.0, 1.0)) * (1.0 + omega * omega)
-    )
+    omega, e = together(period=frequencies(period), restitution=restitutions(restitution))
+    return plain(0.5 * impact_loss(1.0, e) * (1.0 + omega * omega))

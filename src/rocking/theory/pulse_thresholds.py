@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.theory.arguments import between, plain, restitutions
+from rocking.theory.arguments import between, plain, restitutions, together
 
 DURATIONS = (1e-6, 1e6)
 IMPACT_DURATIONS = (1e-3, 100.0)
@@ -178,7 +178,7 @@ def one_sine_impact_amplitudes(duration: Any, restitution: Any) -> tuple[Any, An
     (3.018599860872, 6.318071)
     """
     rate = math.tau / between("duration", duration, *IMPACT_DURATIONS)
-    rate, e = np.broadcast_arrays(rate, restitutions(restitution))
+    rate, e = np.broadcast_arrays(*together(duration=rate, restitution=restitutions(restitution)))
     found = np.array([_range(*pair) for pair in zip(rate.ravel().tolist(), e.ravel().tolist(), strict=True)])
     low, high = found.reshape(*rate.shape, 2)[..., 0], found.reshape(*rate.shape, 2)[..., 1]
     return plain(low), plain(high)

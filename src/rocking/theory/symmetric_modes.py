@@ -14,7 +14,7 @@ import numpy as np
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.orbits import floquet, mode_admissibility, symmetric_mode
 from rocking.model import MAX_AMPLITUDE, PERIODS, Mode, refusal, whole, within
-from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restitutions
+from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restitutions, together
 
 
 def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
@@ -59,7 +59,9 @@ def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
     >>> existence_amplitude([1.0, 2.0], [[0.8], [0.9]], 3).shape
     (2, 2)
     """
-    omega, e, half = frequencies(period), restitutions(restitution), 0.5 * odd(n)
+    omega, e, half = together(
+        period=frequencies(period), restitution=restitutions(restitution), n=0.5 * odd(n)
+    )
     t = np.tanh(half * math.pi / omega)
     swept = t * np.where(e > 0.0, 1.0 - e, np.nan)
     return plain((1.0 + omega * omega) * t * swept / np.hypot(1.0 + e, omega * swept))
@@ -103,7 +105,9 @@ def symmetry_breaking_amplitude(period: Any, restitution: Any, n: Any) -> Any:
     >>> round(symmetry_breaking_amplitude(1.0, 0.8, 1), 9)
     19.070505363
     """
-    omega, e, h = frequencies(period), restitutions(restitution), math.pi * odd(n)
+    omega, e, h = together(
+        period=frequencies(period), restitution=restitutions(restitution), n=math.pi * odd(n)
+    )
     h = h / omega
     e = np.where(e > 0.0, e, np.nan)
     square, lost = 1.0 + omega * omega, (1.0 - e) ** 2
@@ -147,7 +151,7 @@ def slower_mode_amplitude(period: Any, n: Any) -> Any:
     >>> round(slower_mode_amplitude(1.0, 1), 6)
     1.577849
     """
-    omega, half = frequencies(period), 0.5 * odd(n)
+    omega, half = together(period=frequencies(period), n=0.5 * odd(n))
     return plain(np.tanh(half * math.pi / omega) * (1.0 + omega * omega) / omega)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from rocking.model import reals
-from rocking.theory.arguments import plain, side_of
+from rocking.theory.arguments import plain, side_of, sizes, together
 
 CRITICAL_ENERGY = 0.5
 
@@ -32,6 +32,8 @@ def energy(angle: Any, velocity: Any) -> Any:
     ------
     TypeError
         If an argument is not a real number or an array of real numbers.
+    ValueError
+        If a size exceeds 1e100, or if the shapes do not broadcast.
 
     See Also
     --------
@@ -43,7 +45,7 @@ def energy(angle: Any, velocity: Any) -> Any:
     >>> energy(0.0, 1.0), energy(1.5, 0.0)
     (0.5, 0.375)
     """
-    angle, velocity = np.asarray(reals("angle", angle)), np.asarray(reals("velocity", velocity))
+    angle, velocity = together(angle=sizes("angle", angle), velocity=sizes("velocity", velocity))
     return plain(0.5 * velocity * velocity + np.abs(angle) * (1.0 - 0.5 * np.abs(angle)))
 
 

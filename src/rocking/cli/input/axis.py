@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any, NamedTuple
@@ -32,8 +33,8 @@ class Range(NamedTuple):
     stop: float
 
 
-AXIS_ALLOWED = f"{AXIS_FORM} with START ≠ STOP and a whole COUNT in [2, {MAX_POINTS}]"
-RANGE_ALLOWED = f"{RANGE_FORM} with START ≠ STOP"
+AXIS_ALLOWED = f"{AXIS_FORM} with finite START ≠ STOP and a whole COUNT in [2, {MAX_POINTS}]"
+RANGE_ALLOWED = f"{RANGE_FORM} with finite START ≠ STOP"
 
 
 def number_or_axis(text: str) -> float | Axis:
@@ -45,9 +46,21 @@ def number_or_axis(text: str) -> float | Axis:
     with suppress(ValueError):
         start, stop, count = (text if text.count(":") == 2 else f"{text}:{DEFAULT_COUNT}").split(":")
         axis = Axis(float(start), float(stop), int(count))
-        if axis.start != axis.stop and 2 <= axis.points <= MAX_POINTS:
+        if _differ(axis.start, axis.stop) and 2 <= axis.points <= MAX_POINTS:
             return axis
-    raise typer.BadParameter(f"must be a number or {AXIS_ALLOWED}; got {text!r} (example: 1:3:60)")
+    raise _refused(f"must be a number or {AXIS_ALLOWED}", text, "example: 1:3:60")
+
+
+def _differ(start: float, stop: float) -> bool:
+    """Return whether two ends differ and are finite, so that values lie between them."""
+    return math.isfinite(stop - start) and start != stop
+
+
+def _refused(allowed: str, text: str, example: str) -> typer.BadParameter:
+    """Return the error for a text that is not what is allowed."""
+    from rocking.model import shown
+
+    return typer.BadParameter(f"{allowed}; got {shown(text)} ({example})")
 
 
 def number_or_range(text: str) -> float | Range:
@@ -59,9 +72,9 @@ def number_or_range(text: str) -> float | Range:
     with suppress(ValueError):
         start, stop = text.split(":")
         ends = Range(float(start), float(stop))
-        if ends.start != ends.stop:
+        if _differ(ends.start, ends.stop):
             return ends
-    raise typer.BadParameter(f"must be a number or {RANGE_ALLOWED}; got {text!r} (example: 1:3)")
+    raise _refused(f"must be a number or {RANGE_ALLOWED}", text, "example: 1:3")
 
 
 def only_axis(text: str) -> Axis:
@@ -70,7 +83,7 @@ def only_axis(text: str) -> Axis:
         found = number_or_axis(text)
         if isinstance(found, Axis):
             return found
-    raise typer.BadParameter(f"must be an axis, {AXIS_ALLOWED}; got {text!r} (example: 1:3:60)")
+    raise _refused(f"must be an axis, {AXIS_ALLOWED}", text, "example: 1:3:60")
 
 
 def only_range(text: str) -> Range:
@@ -79,7 +92,7 @@ def only_range(text: str) -> Range:
         found = number_or_range(text)
         if isinstance(found, Range):
             return found
-    raise typer.BadParameter(f"must be a range, {RANGE_ALLOWED}; got {text!r} (example: -1:1)")
+    raise _refused(f"must be a range, {RANGE_ALLOWED}", text, "example: -1:1")
 
 
 def axis_option(name: str, text: str) -> Any:

@@ -26,7 +26,9 @@ def number(text: str) -> float:
     for kind in (int, float):
         with suppress(ValueError):
             return kind(text)
-    raise typer.BadParameter(f"must be a number without a unit, such as 0.6; got {text!r}")
+    from rocking.model import shown
+
+    raise typer.BadParameter(f"must be a number without a unit, such as 0.6; got {shown(text)}")
 
 
 def number_option(name: str, text: str) -> Any:

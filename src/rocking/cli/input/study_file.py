@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Callable, Collection, Mapping
@@ -22,8 +21,6 @@ STUDY = (
 )
 Study = Annotated[Path | None, typer.Option("--study", metavar="FILE", help=STUDY)]
 UNQUOTED = "write a number without quotation marks"
-SIMILAR = 0.8
-"""Smallest similarity of an unknown key and the one that is suggested: one letter in four or five may differ."""
 MAX_BYTES = 1_000_000
 """Maximum size of a study file; a typical one has ten lines."""
 Check = Callable[[Any], Any]
@@ -118,6 +115,8 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
 
     Keys are the names of options, with hyphens or underscores.
     """
+    from rocking.model import similar
+
     said = _entries(path)
     _check_once(path, said)
     keys = {key.replace("-", "_"): key for key in said}
@@ -130,7 +129,7 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
             errors.append(as_typed(str(error), {name: keys[name]}))
     unknown = sorted(keys.keys() - checks.keys())
     errors += [_unknown(keys[name], said[keys[name]], checks) for name in unknown]
-    if any(_similar(name, checks) is None and not _is_section(said[keys[name]]) for name in unknown):
+    if any(similar(name, checks) is None and not _is_section(said[keys[name]]) for name in unknown):
         errors.append("keys of this command: " + ", ".join(name.replace("_", "-") for name in checks))
     if errors:
         raise YourInput(f"study {str(path)!r}: " + "; ".join(errors))
@@ -187,17 +186,14 @@ def _unknown(key: str, entry: Any, checks: Mapping[str, Check]) -> str:
     """Return the message for an unknown key as written in the file, with a known one if it is similar."""
     if _is_section(entry):
         return f"unknown {key!r} (a section: write the keys of options without sections)"
-    similar = _similar(key.replace("-", "_"), checks)
-    if similar is None:
+    from rocking.model import similar
+
+    near = similar(key.replace("-", "_"), checks)
+    if near is None:
         return f"unknown {key!r}"
-    return f"unknown {key!r} (did you mean {similar if '_' in key else similar.replace('_', '-')!r}?)"
+    return f"unknown {key!r} (did you mean {near if '_' in key else near.replace('_', '-')!r}?)"
 
 
 def _is_section(entry: Any) -> bool:
     """Return whether an entry is a table other than an axis or a range."""
     return isinstance(entry, Mapping) and not {"start", "stop"} & entry.keys()
-
-
-def _similar(name: str, checks: Mapping[str, Check]) -> str | None:
-    """Return the known name that is most similar to an unknown one; None if none is near."""
-    return next(iter(difflib.get_close_matches(name, checks, 1, SIMILAR)), None)

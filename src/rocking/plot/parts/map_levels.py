@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import refusal, refuse_if
+from rocking.model import refusal, refuse_if, resolve_path, shown_path
 from rocking.plot.parts.legend import NONE, looks
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def nearest(values: np.ndarray, places: np.ndarray) -> np.ndarray:
 
 def _levels(found: Any) -> list[xr.Dataset]:
     if isinstance(found, str | os.PathLike):
-        found = _opened(Path(found))
+        found = _opened(resolve_path("found", found))
     levels = list(found) if isinstance(found, Sequence) else [found]
     allowed = "be a map over two axes, as parametric_map gives it, or the folder of its store"
     for level in levels:
@@ -121,6 +121,6 @@ def _reading(folder: Path | None) -> Iterator[None]:
         if folder is None:
             raise
         raise OSError(
-            f"found must be the folder of a store that can be read; got {str(folder)!r}, which is damaged: "
+            f"found must be the folder of a store that can be read; got {shown_path(folder)}, which is damaged: "
             "repeat the survey that made it with repair"
         ) from error

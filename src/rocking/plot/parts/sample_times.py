@@ -34,8 +34,8 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
         first, last = cycles
     except (TypeError, ValueError):
         raise TypeError(refusal("cycles", "be a pair (first, last)", cycles)) from None
-    first = within("cycles", first, 0, motion.cycles)
-    if within("cycles", last, 0, motion.cycles) <= first:
+    first, last = (within("cycles", each, 0, motion.cycles) for each in (first, last))
+    if last <= first:
         raise ValueError(refusal("cycles", "be a pair (first, last) with first < last", cycles))
     period = motion.system.periodic.period
     allowed = f"begin before |Θ| = {fallen(motion):g}, in cycle {end / period:.4g}"

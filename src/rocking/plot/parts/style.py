@@ -123,17 +123,24 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
 def title(ax: Axes, text: str) -> None:
     """Write `text` above the axes at the left, after the panel's letter if there is one.
 
+    Raises
+    ------
+    TypeError
+        If `ax` is no Axes, or `text` is no text.
+
     See Also
     --------
     panels : Make a figure with panels.
     """
     letter = instance("ax", ax, Axes).get_title(loc="left")
+    instance("text", text, str)
     ax.set_title(f"{letter} {text}" if letter else text, loc="left", fontsize=TEXT, color=INK)
 
 
 def block_title(ax: Axes, block: Block | None, *, full: bool = False) -> None:
     """Write the size of the block above the axes at the left, for a figure in SI units, and whether its equation is full."""
     if block is not None:
+        instance("block", block, Block)
         title(ax, f"block {block.size}{FULL_EQUATION * full}")
 
 

@@ -8,7 +8,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rocking.model import instance
+from rocking.model import instance, shown_path
 from rocking.survey.engine.cost import cost
 from rocking.survey.engine.tile_loop import cores, run
 from rocking.survey.measurement import Measurement
@@ -32,6 +32,8 @@ def run_survey(
     """Run a survey, or resume it in a store; return its dataset."""
     if executor is not None:
         instance("executor", executor, Executor)
+    instance("progress", progress, bool)
+    instance("repair", repair, bool)
     if store is None and repair:
         raise ValueError("repair must be used with store, whose damaged tiles it recomputes")
     if store is None:
@@ -42,8 +44,10 @@ def run_survey(
         )
         return results.dataset()
     with opened(store, asked, measure, repair=repair) as kept:
-        _carry_out(kept, executor, progress, f"completed tiles are in {str(store)!r}; run it again to resume")
-    with _noted(f"The survey is complete in {str(store)!r}; run it again to read the results."):
+        _carry_out(
+            kept, executor, progress, f"completed tiles are in {shown_path(store)}; run it again to resume"
+        )
+    with _noted(f"The survey is complete in {shown_path(store)}; run it again to read the results."):
         return kept.dataset()
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
-from rocking.model import VERSION, shown
+from rocking.model import VERSION, shown, shown_path
 from rocking.survey.measurement import Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Level, even_edges, levels, thinned, tile_edges
@@ -20,6 +20,8 @@ FORMAT, READABLE = 3, (2, 3)
 """Version of the file format, and those that can be read. Tiles of format 2 have no digests."""
 DEFAULT_DIGITS, ALL_DIGITS = 6, 17
 """Digits of differing numbers in messages: as many as show the difference."""
+MAX_TOLD = 160
+"""Longest text of the differences of two surveys, in characters."""
 
 
 @frozen(eq=False)
@@ -122,8 +124,15 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
         if theirs.get(name) != ours.get(name)
     ]
     if differences:
+        kept = [
+            each
+            for count, each in enumerate(differences)
+            if len("; ".join(differences[: count + 1])) <= MAX_TOLD
+        ] or differences[:1]
+        more = f"; and {len(differences) - len(kept)} more" if len(kept) < len(differences) else ""
         raise ValueError(
-            f"store {path!r} holds a different survey: {'; '.join(differences)} (give another folder, or the same values)"
+            f"store {shown_path(path)} holds a different survey: {'; '.join(kept)}{more} "
+            "(give another folder, or the same values)"
         )
 
 
