@@ -128,8 +128,8 @@ SAID = {
         {},
         (
             "periodic: stable orbit of period 10, asymmetric, 4 impacts: Newton residual |P(x) − x| ≤ …, largest Floquet "
-            "multiplier 0.732 in modulus; the motion is so close (distance … one period earlier) that second-order terms cannot "
-            "turn it away: they are … % of the largest that are accepted. Evidence: verified, after … cycles."
+            "multiplier 0.732 in modulus; the motion is so close (distance … one period earlier) that it cannot turn away to "
+            "second order (test at … % of its limit). Evidence: verified, after … cycles."
         ),
     ),
     "neutral orbit": (
@@ -476,7 +476,7 @@ def without_numbers(text):
 def test_end_that_another_run_does_not_meet_is_told_without_its_time(asked, monkeypatch):
     """As after a long chaotic transient, where one rounding otherwise leads elsewhere."""
     elsewhere = rk.simulate(SYMMETRIC, cycles=1, record="none")
-    monkeypatch.setattr(sys.modules[rk.classify.__module__], "simulate", lambda *_, **__: elsewhere)
+    monkeypatch.setattr(sys.modules["rocking.response.classify"], "simulate", lambda *_, **__: elsewhere)
     verdict = rk.classify(asked)
     assert verdict.evidence.level == "exact"
     assert "the block remains at rest" in str(

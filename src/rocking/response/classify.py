@@ -73,9 +73,8 @@ def classify(
     Verdict
         Response type with its evidence, which `print` shows. In `evidence.tolerances`, `residual` is relative to the growth
         of perturbations over one period. `approach` is the largest deviation of a return from the prediction of the
-        multipliers, relative to the predicted approach. A hundredth of the distance is also accepted. `second order` limits
-        the second-order terms. For a positive multiplier it is a part of the way to the nearest unstable orbit. Otherwise
-        it is the relative change of coordinates that removes these terms.
+        multipliers, relative to the predicted approach. A hundredth of the distance is also accepted. `second order` is the
+        limit of the test that the motion cannot turn away to second order.
 
     Raises
     ------

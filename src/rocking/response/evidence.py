@@ -9,7 +9,6 @@ from decimal import ROUND_UP, Context, Decimal
 from attrs import field, frozen
 
 from rocking.kernels.classify import (
-    approach,
     decision_cascade,
     leg,
     periodicity,
@@ -105,8 +104,8 @@ def _orbit(case: Case) -> Shown:
     else:
         share = "less than 1" if judged.excess < 0.01 else f"{100.0 * judged.excess:.0f}"
         reached = (
-            f"the motion is so close (distance {judged.distance:.2g} one period earlier) that second-order terms cannot turn it "
-            f"away: they are {share} % of the largest that are accepted"
+            f"the motion is so close (distance {judged.distance:.2g} one period earlier) that it cannot turn away to second order "
+            f"(test at {share} % of its limit)"
         )
     what = (
         f"stable {_periodic(judged)}: Newton residual |P(x) − x| ≤ {at_most(judged.residual)}, largest Floquet multiplier "
@@ -116,7 +115,7 @@ def _orbit(case: Case) -> Shown:
         "residual": fixed_point.RESIDUAL,
         "approach": periodicity.NONLINEAR,
         "distance": periodicity.ROUNDING,
-        "second order": approach.HALF_WAY if judged.imaginary == 0.0 < judged.real else approach.BENDING,
+        "second order": 1.0,
     }
     return Shown(what, f"verified, {_when(case)}", tolerances)
 

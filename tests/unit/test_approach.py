@@ -1,0 +1,113 @@
+"""Test to second order that a motion cannot turn away from an orbit, on maps whose terms are given, iterated to their end."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rocking.kernels.classify import approach
+from rocking.kernels.classify.periodicity import BENT
+from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.march.tangent import Tangent
+from rocking.kernels.orbits.fixed_point import FixedPoint, MapImage
+
+pytestmark = pytest.mark.xdist_group("approach")  # its kernels are compiled once
+
+RETURNS = 3_000
+FAR = 10.0
+REAL, COMPLEX, BALL = range(3)
+
+
+@njit(**KERNEL)
+def excess(which, bend, tangent, first, second, x, y):
+    """Return the terms over their limit; the multipliers are real, or ``first`` +- i ``second``."""
+    if which == REAL:
+        return approach.excess_of_real(bend, tangent, first, second, x, y)[0]
+    if which == COMPLEX:
+        return approach.excess_of_complex(bend, tangent, complex(first, second), x, y)
+    return approach.excess_in_ball(bend, tangent, max(abs(first), abs(second)), x, y)
+
+
+@njit(**KERNEL)
+def slow_part_shrinks(section, row, tangent, rho, sigma):
+    image = MapImage(True, 0.0, 0.0, tangent, 2, 0, math.nan, (0.0, 0.0))
+    return approach.slow_part_shrinks(
+        section, row, 1, FixedPoint(True, 0.0, 0.0, image, 0.0, 0.0, 0), rho, sigma
+    )
+
+
+def maps(which, count, seed):
+    """Yield multipliers, Jacobian (2, 2), second derivative (2, 2, 2) and a state of quadratic maps in skew coordinates."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        if which == COMPLEX:
+            first, second = np.array([math.cos(turn := rng.uniform(0.02, 3)), math.sin(turn)]) * (
+                1 - 10 ** rng.uniform(-2, -0.5)
+            )
+            plain = np.array([[first, -second], [second, first]])
+        else:
+            first = (1 - 10 ** rng.uniform(-2, -0.5)) * rng.choice([-1, 1], p=[0.2, 0.8])
+            second = first * rng.uniform(0.0, 0.9)
+            plain = np.diag([first, second])
+        basis = rng.normal(size=(2, 2))
+        jacobian = basis @ plain @ np.linalg.inv(basis)
+        bend = rng.normal(size=(2, 2, 2)) * 10 ** rng.uniform(-1, 1)
+        bend = bend + bend.transpose(0, 2, 1)
+        state = rng.normal(size=2) * 10 ** rng.uniform(-4, 0)
+        # as ``periodicity.compare`` demands: a return deviates little from the linear map, in coordinates of the eigenvectors
+        off = np.linalg.solve(basis, 0.5 * (bend @ state @ state))
+        if np.hypot(*off) <= BENT * np.hypot(*np.linalg.solve(basis, state)):
+            yield first, second, jacobian, bend, state
+
+
+def converges(jacobian, bend, state):
+    """Follow z -> J z + D2P(z, z)/2 to its end."""
+    for _ in range(RETURNS):
+        state = jacobian @ state + 0.5 * (bend @ state @ state)
+        if not 1e-8 < np.hypot(*state) < FAR:
+            break
+    return bool(np.hypot(*state) <= 1e-8)
+
+
+def tangent_of(matrix):
+    """Return a matrix as the kernels have it, by columns."""
+    return Tangent(*(float(value) for value in matrix.T.ravel()))
+
+
+@pytest.mark.parametrize("which", [REAL, COMPLEX, BALL])
+def test_no_state_below_the_limit_leaves_its_fixed_point(which):
+    """Of the states that converge, more than a tenth must also be accepted: a limit of zero accepts none."""
+    accepted, converging = 0, 0
+    for first, second, jacobian, bend, state in maps(which, 1_500, 17):
+        curvature = approach.Curvature(True, tangent_of(bend[:, :, 0]), tangent_of(bend[:, :, 1]))
+        below = excess(which, curvature, tangent_of(jacobian), first, second, *map(float, state)) <= 1.0
+        ends = converges(jacobian, bend, state)
+        assert ends or not below, (first, second, jacobian, bend, state)
+        accepted, converging = accepted + below, converging + ends
+    assert accepted > 0.1 * converging > 10
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("start", [0.1, 0.5, 0.8, 0.95, 1.05])
+def test_third_order_terms_are_seen_in_the_last_returns(sign, start):
+    """u' = ρ u + c u³ has unstable points, or for ρ < 0 an unstable cycle, at u_s. Beyond it, and next to it, nothing shrinks."""
+    rho, sigma, cubic = sign * 0.99, sign * 0.3, sign * 4.0
+    unstable = math.sqrt((1.0 - abs(rho)) / abs(cubic))
+    states = [(start * unstable, 0.0)]
+    for _ in range(3):
+        u, s = states[-1]
+        states.append((rho * u + cubic * u**3, sigma * s))
+    section = np.array(states)
+    shrinks = slow_part_shrinks(section, 3, Tangent(rho, 0.0, 0.0, sigma), rho, sigma)
+    assert shrinks == (start <= 0.8)
+
+
+def test_a_fast_part_does_not_hide_that_the_slow_part_grows():
+    """u' = ρ u + a s with s' = σ s: the fast part pushes u inwards at first, and outwards of what remains of it."""
+    rho, sigma = 0.999, 0.6
+    states = [(1.0, 0.5)]
+    for _ in range(3):
+        u, s = states[-1]
+        states.append((1.002 * u - 0.05 * s, sigma * s))  # it grows by 0.2 % where ρ predicts that it shrinks
+    assert not slow_part_shrinks(np.array(states), 3, Tangent(rho, 0.0, 0.0, sigma), rho, sigma)
