@@ -469,7 +469,7 @@ def test_lack_of_memory_or_of_threads_is_one_line_with_the_remedy(rocking, tmp_p
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("megabytes", [200, 300])
+@pytest.mark.parametrize("megabytes", [200])
 def test_limit_of_memory_that_libraries_do_not_fit_in_is_one_line_with_the_remedy(megabytes, tmp_path):
     limited = f"""
 import resource

@@ -27,7 +27,7 @@ NAMES = ("localhost", HOST, "[::1]")
 LOGGERS = ("bokeh.server.protocol_handler", "bokeh.server.views.ws", "tornado.application")
 """Loggers of failed messages and connections."""
 MAX_MESSAGE = 64_000_000
-"""Maximum size of a message of a page, in bytes: more than that of the largest file."""
+"""Maximum size of a message of a page, in bytes: larger than the largest file."""
 PATIENCE = 30.0
 """Time limit for the headers of a request, and for its body, s."""
 UNUSED = 5_000

@@ -1,9 +1,9 @@
 """Colours of outcomes, of types of response and of lines: in all figures, in the explorer and in the reports.
 
 No other file states a colour of these. An outcome or a type has the same colour everywhere, and no other meaning has that
-colour. Lines of data have the colours of `SERIES`, an angle those of `ANGLES`. Readers with protanopia or deuteranopia can
-distinguish the colours; the tests simulate both. The outcomes differ in lightness, for print in grey, and marks or hatches
-support the colours.
+colour. Only the scale of angles, `ANGLES`, begins with the colour of blocks that stand. Lines of data have the colours of
+`SERIES`. Readers with protanopia or deuteranopia can distinguish the colours; the tests simulate both. The outcomes differ in
+lightness, for print in grey, and marks or hatches support the colours.
 """
 
 REST = ("#4A4A4A",)
