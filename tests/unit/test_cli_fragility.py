@@ -222,8 +222,14 @@ def test_bad_input_is_refused_in_one_line(rocking, line, message):
 def test_levels_of_the_peak_velocity_warn_of_records_that_drift(rocking, tmp_path):
     path = tmp_path / "push.csv"
     path.write_text("time (s), acceleration (m/s²)\n0, 0\n0.5, 12\n1, 0\n", encoding="utf-8")
-    said = "the PGV and PGD of the record are those of a drift of the baseline (push.csv): give --baseline linear"
-    for level, warned in (("pgv 0.1:1:4", True), ("pga 1:5:4", False)):
+    drift = "the PGV and PGD are those of a drift, because "
+    for level, ends in (
+        ("pgv 0.1:1:4", ["or for example --baseline='linear'"]),
+        ("pgv 0.1:1:4 --baseline linear", ["or for example --baseline='quadratic'"]),
+        ("pga 1:5:4", []),
+    ):
         code, _, out = rocking(f"fragility {path} --height 2 --width 0.5 --{level} --json")
         assert code == 0
-        assert (said in json.loads(out)["warnings"]) == warned
+        told = [each for each in json.loads(out)["warnings"] if drift in each]
+        assert [each.startswith(f"push.csv: {drift}") for each in told] == [True] * len(ends)
+        assert [each.partition(": use a corrected record, ")[2] for each in told] == ends

@@ -187,9 +187,9 @@ def test_file_in_memory_is_the_file_on_the_disk(tmp_path):
     data = "\n".join(write.peer(np.sin(np.arange(40)))).encode()
     path = tmp_path / "town.AT2"
     path.write_bytes(data)
-    (motion,) = read_file("town.AT2", data, DEFAULT)
-    assert motion == rk.read_ground_motion(path)
-    assert ground_of(attrs.evolve(DEFAULT, source="file", channel=3), (motion,)).base is motion
+    (ground,) = read_file("town.AT2", data, DEFAULT)
+    assert ground.base == rk.read_ground_motion(path)
+    assert ground_of(attrs.evolve(DEFAULT, source="file", channel=3), (ground,)) is ground
 
 
 def test_file_without_units_asks_for_them_in_one_line_and_then_is_read():
@@ -197,8 +197,8 @@ def test_file_without_units_asks_for_them_in_one_line_and_then_is_read():
     with pytest.raises(rk.RecordError, match="does not state the unit") as caught:
         read_file("bare.txt", data, DEFAULT)
     assert "\n" not in str(caught.value)
-    (motion,) = read_file("bare.txt", data, attrs.evolve(DEFAULT, units="g", step=0.02))
-    assert (motion.pga, motion.step) == (G, 0.02)
+    (ground,) = read_file("bare.txt", data, attrs.evolve(DEFAULT, units="g", step=0.02))
+    assert (ground.base.pga, ground.base.step) == (G, 0.02)
 
 
 def test_file_is_refused_beyond_the_limit_and_without_bytes():
@@ -262,16 +262,22 @@ def test_remark_states_both_peaks_if_the_header_differs():
     assert "header states 1.5 m/s²" in note
 
 
+def test_remark_tells_each_warning_of_the_reader():
+    data = b"time (s), acceleration (g)\n0, 0\n1, 100\n2, -100\n3, -100\n4, 100\n5, 0\n"
+    (ground,) = read_file("a.csv", data, DEFAULT)
+    with pytest.warns(rk.InputWarning, match="PGA") as caught:
+        rk.read_ground_motion(data, name="a.csv")
+    assert [f"{each.message}." for each in caught] == [f"a.csv: a{ground.note[1:]}"]
+    assert "check the unit of the samples, g" in ground.note
+
+
 def test_remark_tells_a_vertical_channel_and_a_drift():
-    shown = attrs.evolve(DEFAULT, source="file")
     up = rk.GroundMotion([0.0, 1.0, -1.0, -1.0, 1.0, 0.0], step=0.1, component="Up")
-    assert ground_of(shown, (up,)).note == (
+    assert Ground(up).note == (
         "The component Up is vertical, and the base moves horizontally: choose a horizontal component."
     )
     pushed = rk.GroundMotion([0.0, 1.0, 0.0], step=0.1)
-    assert ground_of(shown, (pushed,)).note == (
-        "The PGV is that of a drift, because the baseline is not corrected: give a corrected record."
-    )
+    assert Ground(pushed).note == f"T{pushed.drift_doubt[1:]}." != "T."
 
 
 # ---- map

@@ -258,7 +258,9 @@ def test_motion_drifts_if_the_ground_does_not_come_to_rest_or_moves_too_far(wron
     motion = rk.GroundMotion(SHAKEN + wrong, step=0.01)
     assert reason in motion.drift_doubt
     assert bool(motion.drift_doubt) == bool(motion.scaled(-3.0).drift_doubt) == bool(reason)
-    assert motion.drift_doubt.endswith("correct it, for example baseline='linear'" * bool(reason))
+    assert motion.drift_doubt.endswith(
+        "use a corrected record, or for example baseline='linear'" * bool(reason)
+    )
     assert rk.GroundMotion(SHAKEN + wrong, step=0.01, baseline="linear").drift_doubt == ""
 
 

@@ -4,6 +4,7 @@ import copy
 import inspect
 import math
 import pickle
+from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from functools import partial
 
@@ -256,6 +257,12 @@ def test_value_out_of_all_reason_is_a_warning_at_the_line_of_the_user(make, mess
     assert [each.filename for each in caught] == [__file__]
 
 
+def test_warning_of_an_angle_is_ignored_at_the_lines_of_tests_alone():
+    rk.State(3.0)
+    with ThreadPoolExecutor(1) as pool, pytest.raises(rk.InputWarning, match="angle 3 is"):
+        pool.submit(rk.State, 3.0).result()  # at a line of the pool
+
+
 @pytest.mark.filterwarnings("error")
 def test_values_that_the_package_makes_or_that_are_usual_give_no_warning():
     far = {"brace_angle": 5.0, "brace_restitution": 0.5}
@@ -264,6 +271,9 @@ def test_values_that_the_package_makes_or_that_are_usual_give_no_warning():
         == 5.0
     )
     rk.State(2.0), rk.State(velocity=50.0), rk.Braces(2.0), rk.Block(100.0, 20.0), rk.Block(0.01, 0.002)
+    overturning = rk.System(rk.Harmonic(amplitude=60.0, period=6.0), restitution=0.9)
+    assert rk.simulate(overturning).final.angle < -2.0
+    assert rk.classify(overturning).kind == "overturned"
     ground = rk.GroundMotion([0.0, 50.0, -0.01], step=0.01)
     assert ground.scaled(100.0).pga == 5_000.0
     assert rk.GroundMotion([0.0, 0.0], step=0.01).pga == 0.0

@@ -482,11 +482,26 @@ def test_separators_of_columns(make, separator):
 def test_a_unit_in_the_header_counts_if_it_is_the_only_one(make, header, size):
     path = make([*header, "0, 1", "0.5, 2"])
     assert rk.read_ground_motion(path).pga == pytest.approx(2 * size)
-    assert "the file states the unit of its samples" in refusal_of(path, units="g" if size < 1.1 else "m/s²")
+    said = refusal_of(path, units="g" if size < 1.1 else "m/s²")
+    assert said.startswith("file.x: the header names ")
+    assert said.endswith(
+        "s²; omit units, or correct the header" if size < 1.1 else "g; omit units, or correct the header"
+    )
 
 
 @pytest.mark.parametrize(
-    "header", [["acc (g) or acc (m/s2)"], ["a mass of 5 g"], ["velocity (cm/s)"], ["time acc"], []]
+    "header",
+    [
+        ["acc (g) or acc (m/s2)"],
+        ["a mass of 5 g"],
+        ["velocity (cm/s)"],
+        ["time acc"],
+        [],
+        ["El Centro, recorded in G building", "time,acceleration"],
+        ["Accelerations recorded in G building"],
+        ["Accelerograph of site G"],
+        ["El Centro (G)", "time,acceleration"],
+    ],
 )
 def test_a_unit_that_is_not_clear_must_be_given(make, header):
     assert "give it, for example units=" in refusal_of(make([*header, "0, 1", "0.5, 2"]))
@@ -512,12 +527,22 @@ def test_a_header_that_contradicts_the_unit_given_is_refused(make, header, expec
     assert expected in refusal_of(make([*header, "0, 1", "0.5, 2"]), units="gal")
 
 
+def test_the_unit_given_beats_one_that_prose_mentions(make):
+    path = make(["El Centro, at most 50 cm/s^2", "time,acceleration", "0, 1", "0.5, 2"])
+    assert rk.read_ground_motion(path).pga == 0.02
+    assert rk.read_ground_motion(path, units="cm/s2").pga == 0.02
+    with pytest.warns(
+        rk.InputWarning, match=r"^file.x: units='m/s²' is used, though the header mentions cm/s²$"
+    ):
+        assert rk.read_ground_motion(path, units="m/s²").pga == 2.0
+
+
 @pytest.mark.parametrize("third", ["ACCELERATION TIME SERIES (CM/S/S)", "ACCELERATION TIME SERIES IN CM/S/S"])
 def test_peer_file_states_its_unit_in_other_words_too(make, third):
     lines = write.peer(WAVE)
     path = make([*lines[:2], third, *lines[3:]])
     np.testing.assert_allclose(rk.read_ground_motion(path).acceleration, 0.01 * WAVE, rtol=1e-12)
-    assert "the file states the unit of its samples, cm/s²" in refusal_of(path, units="g")
+    assert "the header names cm/s²; omit units, or correct the header" in refusal_of(path, units="g")
 
 
 def test_header_in_latin_1_and_with_a_mark_of_utf_8(make):

@@ -50,7 +50,9 @@ def drift_doubt(motion: GroundMotion) -> str:
         return ""
     treated = "no" if motion.baseline == "none" else f"a {motion.baseline}"
     better = {"linear": "quadratic", "quadratic": None}.get(motion.baseline, "linear")
-    remedy = f"correct it, for example baseline={better!r}" if better else "use a corrected record"
+    remedy = (
+        f"use a corrected record, or for example baseline={better!r}" if better else "use a corrected record"
+    )
     return (
         f"the PGV and PGD are those of a drift, because {treated} baseline is removed and {worst}: {remedy}"
     )

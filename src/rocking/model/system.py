@@ -21,7 +21,7 @@ NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
 MAX_STATE = 1e300
 MAX_START = 1e3
 MAX_USUAL_ANGLE = 2.0
-"""Largest |Θ| of a state or brace without a warning."""
+"""Largest |Θ| of a state or brace without a warning: a block that still moves is often somewhat beyond 1."""
 FORCINGS = "make one: rk.Harmonic(amplitude=2.0, period=1.0) or rk.PiecewiseLinear([0.0, 2.0, 0.0], step=0.1)"
 RANGES = {
     "amplitude": (0.0, MAX_AMPLITUDE),
@@ -94,7 +94,7 @@ class Braces:
     restitution: float = field(default=1.0, converter=_restitution)
 
     def __attrs_post_init__(self) -> None:
-        if doubt := _angle_doubt(self.angle):
+        if doubt := angle_doubt(self.angle):
             warn_of_value(doubt)
 
 
@@ -276,17 +276,17 @@ class State:
     velocity: float = field(default=0.0, converter=_velocity)
 
     def __attrs_post_init__(self) -> None:
-        if doubt := _angle_doubt(self.angle):
+        if doubt := angle_doubt(self.angle):
             warn_of_value(doubt)
 
 
-def _angle_doubt(angle: float) -> str:
-    """Return a sentence on an angle that is probably in degrees; empty for any other."""
+def angle_doubt(angle: float, remedy: str | None = None) -> str:
+    """Return a sentence, with a remedy, on an angle that is probably in degrees; empty for any other."""
     if abs(angle) <= MAX_USUAL_ANGLE:
         return ""
     return (
         f"angle {angle:.6g} is {abs(angle):.6g} times the critical angle, beyond which a block overturns under its own weight: "
-        f"block.angle(degrees={angle:.6g}) converts degrees"
+        f"{remedy or f'block.angle(degrees={angle:.6g}) converts degrees'}"
     )
 
 

@@ -39,6 +39,8 @@ class Channel(NamedTuple):
     component: str = ""
     peak: Peak | None = None
     named: frozenset[str] = frozenset()
-    """Units of acceleration that the header names, also where several leave the unit open."""
+    """Units of acceleration that the header states, also where several leave the unit open."""
+    mentioned: frozenset[str] = frozenset()
+    """Units of acceleration that other words of the header mention."""
     lacking: str = ""
     """Sentence on the missing line that would state the unit; empty if no line is missing."""

@@ -52,10 +52,10 @@ def read(file: TextFile) -> list[Channel]:
     if len(rows) > MAX_SAMPLES:
         raise file.error(places[MAX_SAMPLES], f"more than {MAX_SAMPLES:,} samples")
     samples = file.numbers(places, [row[-1] for row in rows], "a sample")
-    named = header_units(file.lines[:first])
+    named, mentioned = header_units(file.lines[:first])
     _check_titles(file, first, width)
     step = None if width == 1 else _step(file, places, [row[0] for row in rows])
-    return [Channel(samples, only(named), step, "text", named=named)]
+    return [Channel(samples, only(named or mentioned), step, "text", named=named, mentioned=mentioned)]
 
 
 def _first_row(file: TextFile) -> int | None:

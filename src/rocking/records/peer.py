@@ -26,8 +26,8 @@ def read(file: TextFile) -> list[Channel]:
     if other:
         raise file.error(2, f"acceleration expected, but the file holds {other.lower()}; give the .AT2 file")
     title = file.find(TITLE, 2, 3)
-    named = frozenset() if title else header_units(file.lines[:4])
-    unit = only(named) if title is None else file.unit(2, title[1].group(2))
+    named, mentioned = header_units([] if title else file.lines[:4])
+    unit = only(named or mentioned) if title is None else file.unit(2, title[1].group(2))
     if title is not None:
         file.line(3)
     header = _counts(file, 2 if title is None else 3)
@@ -45,6 +45,7 @@ def read(file: TextFile) -> list[Channel]:
             name.strip(),
             component.strip(),
             named=named,
+            mentioned=mentioned,
             lacking="" if unit else NO_TITLE,
         )
     ]

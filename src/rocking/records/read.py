@@ -96,7 +96,7 @@ def read_ground_motion(
     -----
     InputWarning
         If the peak of the samples differs from the peak in the header: see `RecordFile.pga_agrees`. Also if the PGA is below 0.01
-        or above 50 m/s²: the unit is probably another.
+        or above 50 m/s²: the unit is probably another. Also if words of the header mention another unit than `units`.
 
     See Also
     --------
@@ -117,7 +117,7 @@ def read_ground_motion(
     number = whole("channel", channel, 1, 10**9)
     if number > count:
         raise ValueError(refusal("channel", f"be 1 to {count}, the channels of {found.name}", channel))
-    return _motion(found, number, given)
+    return _warned(found, number, *_motion(found, number, given))
 
 
 def read_ground_motions(
@@ -164,7 +164,17 @@ def read_ground_motions(
     """
     given = _given(units, step, baseline)
     found = _source(source, name)
-    return tuple(_motion(found, number, given) for number in range(1, len(found.channels) + 1))
+    numbers = range(1, len(found.channels) + 1)
+    return tuple(_warned(found, number, *_motion(found, number, given)) for number in numbers)
+
+
+def read_with_doubts(
+    data: bytes, *, units: str | None, step: float | None, name: str
+) -> list[tuple[GroundMotion, list[str]]]:
+    """Return all channels as `read_ground_motions` does, each with the sentences of its warnings."""
+    given = _given(units, step, "none")
+    found = _source(data, name)
+    return [_motion(found, number, given) for number in range(1, len(found.channels) + 1)]
 
 
 def _given(units: str | None, step: float | None, baseline: str) -> _Given:
@@ -186,23 +196,40 @@ def _source(source: Any, name: str | None) -> _Source:
     return _Source(content.name, content.sha256, channels)
 
 
-def _motion(source: _Source, number: int, given: _Given) -> GroundMotion:
-    """Return the motion of a channel; warn if its peak differs from the header's."""
+def _place(source: _Source, number: int) -> str:
+    return f"{source.name}, channel {number}" if len(source.channels) > 1 else source.name
+
+
+def _warned(source: _Source, number: int, motion: GroundMotion, doubts: list[str]) -> GroundMotion:
+    for doubt in doubts:
+        warn_of_input(f"{_place(source, number)}: {doubt}")
+    return motion
+
+
+def _motion(source: _Source, number: int, given: _Given) -> tuple[GroundMotion, list[str]]:
+    """Return the motion of a channel, and a sentence on each doubt about its unit."""
     channel, several = source.channels[number - 1], len(source.channels) > 1
-    place = f"{source.name}, channel {number}" if several else source.name
+    place, doubts = _place(source, number), []
+    stated = channel.unit
+    if given.unit and channel.named and given.unit not in channel.named:
+        names = " and ".join(sorted(channel.named))
+        way = "omit units, or correct the header"
+        if stated is None:
+            names, way = f"the units {names}, not {given.unit}", "give one of them as units"
+        raise RecordError(f"{place}: the header names {names}; {way}")
+    if given.unit and channel.mentioned and not channel.named:
+        stated = None
+        if given.unit not in channel.mentioned:
+            names = " and ".join(sorted(channel.mentioned))
+            doubts.append(f"units={given.unit!r} is used, though the header mentions {names}")
     unit = _stated(
         f"{place}: {channel.lacking}" if channel.lacking else place,
         "units",
-        channel.unit,
+        stated,
         given.unit,
         "the unit of its samples",
         "g" if channel.lacking else "m/s²",
     )
-    if given.unit and channel.named and unit not in channel.named:
-        names = " and ".join(sorted(channel.named))
-        raise RecordError(
-            f"{place}: the header names the units {names}, not {unit}; give one of them as units"
-        )
     step = _stated(place, "step", channel.step, given.step, "its time step", "0.01")
     samples = channel.samples * UNITS[unit]
     name, component = (" ".join(text.split()) for text in (channel.name, channel.component))
@@ -230,12 +257,12 @@ def _motion(source: _Source, number: int, given: _Given) -> GroundMotion:
     except ValueError as error:
         raise RecordError(f"{place}: {error}") from error
     if doubt := pga_doubt(float(np.abs(samples).max())):
-        warn_of_input(f"{place}: {doubt}, {unit}")
+        doubts.append(f"{doubt}, {unit}")
     if file is not None and file.pga_agrees is False:
-        warn_of_input(
-            f"{place}: the samples have a PGA of {file.pga:.5g} m/s², the header states {file.header_pga:.5g} m/s²"
+        doubts.append(
+            f"the samples have a PGA of {file.pga:.5g} m/s², the header states {file.header_pga:.5g} m/s²"
         )
-    return motion
+    return motion, doubts
 
 
 def _stated(place: str, argument: str, stated: Any, given: Any, what: str, example: str) -> Any:

@@ -1,4 +1,4 @@
-"""Reading of a record file in a process of its own, which a limit of time or of memory really ends.
+"""Reading of a record file in a process of its own, which a limit of time or of memory ends.
 
 A thread cannot be ended, and a long search in a text stops all other threads.
 """
@@ -9,20 +9,19 @@ import os
 import pickle
 import subprocess
 import sys
-import warnings
 from contextlib import suppress
 from typing import Any
 
 from rocking.model import GroundMotion
 from rocking.records.channel import RecordError
-from rocking.records.read import read_ground_motions
+from rocking.records.read import read_with_doubts
 
 MAX_MEMORY = 4 << 30
 """Largest address space of the process in bytes, where the operating system has such a limit."""
 
 
-def read_apart(data: bytes, seconds: float, **given: Any) -> tuple[GroundMotion, ...]:
-    """Read all channels of a file in memory as `read_ground_motions` does; `RecordError` if it takes longer than `seconds`."""
+def read_apart(data: bytes, seconds: float, **given: Any) -> list[tuple[GroundMotion, list[str]]]:
+    """Read all channels of a file in memory as `read_with_doubts` does; `RecordError` if it takes longer than `seconds`."""
     # The same modules as here, and one thread: each thread of OpenBLAS takes address space.
     same = {"PYTHONPATH": os.pathsep.join(sys.path), "OPENBLAS_NUM_THREADS": "1"}
     try:
@@ -38,7 +37,7 @@ def read_apart(data: bytes, seconds: float, **given: Any) -> tuple[GroundMotion,
         raise RecordError(f"reading takes longer than {seconds:g} s: give a shorter file") from None
     if done.returncode:
         raise RuntimeError(done.stderr.decode(errors="replace"))
-    found: tuple[GroundMotion, ...] | Exception = pickle.loads(done.stdout)
+    found: list[tuple[GroundMotion, list[str]]] | Exception = pickle.loads(done.stdout)
     if isinstance(found, Exception):
         raise found
     return found
@@ -51,11 +50,9 @@ def answer() -> None:
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
-    found: tuple[GroundMotion, ...] | Exception
+    found: list[tuple[GroundMotion, list[str]]] | Exception
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            found = read_ground_motions(data, **given)
+        found = read_with_doubts(data, **given)
     except MemoryError:
         found = RecordError(f"reading takes more than {memory >> 20:,} MB of memory: give a shorter file")
     except (ValueError, TypeError) as error:

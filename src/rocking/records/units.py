@@ -44,9 +44,16 @@ TIMES = {"s", "sec", "secs", "second", "seconds"}
 OTHER_TIMES = {"ms", "msec", "min", "minutes", "h", "hours", "us", "µs"}
 SEPARATOR = re.compile(r"[,;\t|]")
 IN_BRACKETS = re.compile(r"[\[(]([^\[\]()]++)[\])]")
-AFTER_WORD = re.compile(
-    r"\b(?:units?\b(?:\s+(?:is|are|of|in)\b|\s*[:=])*\s*|in\s+)([^\s,;()\[\]]+)", re.IGNORECASE
+SPEAKS = re.compile(
+    r"(?<![^\W_])(?:acc(?:el(?:erations?)?)?(?![^\W_])|units?(?![^\W_])|a(?=[\s_]*(?:[\[(]|in\b)))",
+    re.IGNORECASE,
 )
+"""Word of a cell of a header that speaks of acceleration, or of units."""
+STATED = re.compile(
+    r"(?:^[a-z]+[\s_.:=]+|\bin\s+|\bunits?(?:\s+(?:is|are|of|in)\b|\s*[:=])+\s*)([^\s()\[\]\"]{1,20})[\s)\]\"]*$",
+    re.IGNORECASE,
+)
+"""Unit at the end of such a cell: acc g, acceleration in g, units of g."""
 CHOICES = "be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'"
 
 
@@ -67,26 +74,33 @@ def unit_of(text: str) -> str | None:
     return SPELLINGS.get(_plain(text))
 
 
-def header_units(lines: Sequence[str]) -> frozenset[str]:
-    """Return the units of acceleration that a header names.
+def header_units(lines: Sequence[str]) -> tuple[frozenset[str], frozenset[str]]:
+    """Return the units of acceleration that a header states, and those that its other words mention.
 
-    They stand in brackets, after the words unit or in, after a title that begins with acc, or in a line of units alone. A word that
-    can be nothing else, such as m/s², counts everywhere.
+    Stated are those of a line of units alone, and of a cell that speaks of acceleration or of units. Elsewhere, only what can be
+    nothing else, such as m/s², counts as mentioned.
 
     Examples
     --------
-    >>> sorted(header_units(["time,acceleration", "s,m/s^2"])), sorted(header_units(["t acc_g", "a mass of 5 g"]))
-    (['m/s²'], ['g'])
+    >>> [sorted(units) for units in header_units(["t acc_g", "recorded in G building, at most 3 m/s^2"])]
+    [['g'], ['m/s²']]
     """
-    named = []
+    stated, mentioned = [], []
     for line in lines:
-        words = re.split(r"[\s,;|_\"'=:()\[\]]+", line)
-        named += IN_BRACKETS.findall(line) + AFTER_WORD.findall(line)
-        named += [word for word in words if not word.isalpha()]
-        named += [words[-1] for words in map(_words, _cells(line)) if words[0].lower().startswith("acc")]
         if is_line_of_units(line):
-            named += titles(line)
-    return frozenset(unit for unit in map(unit_of, named) if unit is not None)
+            stated += titles(line)
+        for cell in SEPARATOR.split(line):
+            named = IN_BRACKETS.findall(cell) + re.split(r"[\s_\"'=:()\[\]]+", cell)
+            if word := SPEAKS.search(cell):
+                stated += [each for each in named if not each.isalpha()] + IN_BRACKETS.findall(cell)
+                stated += STATED.findall(cell[word.start() :])
+            else:
+                mentioned += [each for each in named if not each.isalpha()]
+    return _units(stated), _units(mentioned)
+
+
+def _units(texts: Sequence[str]) -> frozenset[str]:
+    return frozenset(unit for unit in map(unit_of, texts) if unit is not None)
 
 
 def only(named: frozenset[str]) -> str | None:
@@ -121,10 +135,6 @@ def _cells(line: str) -> list[str]:
     """Return the cells of a header line: between separators or, without one, between blanks."""
     plain = line.strip().lstrip("#%!/").replace('"', "")
     return [cell.strip() for cell in (SEPARATOR.split(plain) if SEPARATOR.search(plain) else plain.split())]
-
-
-def _words(cell: str) -> list[str]:
-    return re.split(r"[\s_]+", cell)
 
 
 def given_unit(units: str) -> str:

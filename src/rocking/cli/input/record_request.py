@@ -92,6 +92,6 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
 
 def as_options(text: str) -> str:
     """Return the message on a file with the arguments that it names as options; the file may be named like one."""
-    for said in ("for example ", "do not give "):
+    for said in ("for example ", "do not give ", "; omit ", "one of them as "):
         text = text.replace(said, said + "--")
     return text

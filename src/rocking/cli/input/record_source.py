@@ -153,13 +153,13 @@ def drift_doubts(records: RecordSet) -> list[str]:
     """Return a warning of the records whose PGV and PGD are those of a drift; none without such a record."""
     from rocking.model import listed
 
-    names = [name for name, motion in zip(records.names, records, strict=True) if motion.drift_doubt]
-    if not names:
+    doubts = {name: motion.drift_doubt for name, motion in zip(records.names, records, strict=True)}
+    found = {name: as_options(doubt) for name, doubt in doubts.items() if doubt}
+    if not found:
         return []
-    count = f"{len(names)} of {len(records)} records" if len(records) > 1 else "the record"
-    return [
-        f"the PGV and PGD of {count} are those of a drift of the baseline ({listed(names)}): give --baseline linear"
-    ]
+    first, *others = found
+    more = f" (and {len(others)} of the other records: {listed(others)})" if others else ""
+    return [f"{first}{more}: {found[first]}"]
 
 
 def files_of(places: Mapping[str, Path], records: RecordSet) -> dict[str, Path]:

@@ -12,7 +12,18 @@ import numpy as np
 
 from rocking.cli.output.console import WARNING, Row, print_json, print_table
 from rocking.cli.reports import validity
-from rocking.model import GRAVITY, PHYSICAL, Block, Pulse, System, Verdict, counted, ordinal, quantities
+from rocking.model import (
+    GRAVITY,
+    PHYSICAL,
+    Block,
+    Pulse,
+    System,
+    Verdict,
+    angle_doubt,
+    counted,
+    ordinal,
+    quantities,
+)
 from rocking.motion import has_cycles
 
 if TYPE_CHECKING:
@@ -129,15 +140,12 @@ SHOWN: dict[str, tuple[Callable[[Block, Any], Any], str]] = {
 
 
 def beyond(angle: float, block: Block | None) -> Iterator[str]:
-    """Yield a warning for an initial angle beyond the critical angle, which may have been meant in degrees."""
-    if abs(angle) <= 1.0:
-        return
-    meant = "" if block is None else f"; {angle:.6g}° is --angle {block.angle(degrees=angle):.4g}"
-    at = "" if block is None else f" = {block.degrees(angle):.4g}°"
-    yield (
-        f"{WARNING}--angle {angle:.6g} is {angle:.6g} θcr{at}, beyond the critical angle, where the block overturns under its "
-        f"own weight (the unit is θcr, not degrees{meant})"
-    )
+    """Yield a warning for an initial angle that was probably meant in degrees."""
+    remedy = "the unit is not degrees"
+    if block is not None:
+        remedy = f"{angle:.6g}° is --angle {block.angle(degrees=angle):.4g}"
+    if doubt := angle_doubt(angle, remedy):
+        yield f"{WARNING}--{doubt}"
 
 
 def found(motion: Motion, block: Block | None) -> Iterator[Row]:

@@ -7,7 +7,7 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-from attrs import define
+from attrs import define, field
 
 from rocking.explorer.ground_motion.view import GroundView
 from rocking.model import GRAVITY, GroundMotion, Pulse, vertical_sentence
@@ -32,12 +32,21 @@ class Ground:
     ----------
     base : GroundMotion or Pulse
         Base motion in SI units.
-    note : str
-        Remark on the file; empty for none.
+    doubts : list of str
+        Sentences of the reader of its file.
     """
 
     base: GroundMotion | Pulse
-    note: str = ""
+    doubts: list[str] = field(factory=list)
+
+    @cached_property
+    def note(self) -> str:
+        """Sentence for each doubt about a record; empty for none."""
+        if not isinstance(self.base, GroundMotion):
+            return ""
+        vertical = vertical_sentence([self.base.component]) if self.base.vertical else ""
+        found = filter(None, (*self.doubts, vertical, self.base.drift_doubt))
+        return " ".join(f"{each[0].upper()}{each[1:]}." for each in found)
 
     @cached_property
     def sampled(self) -> GroundMotion:
@@ -48,6 +57,11 @@ class Ground:
         return GroundMotion(
             self.base.acceleration(times), step=float(times[1]), name=f"{self.base.kind} pulse"
         )
+
+    @property
+    def name(self) -> str:
+        """Name and component."""
+        return " ".join(filter(None, (self.sampled.name, self.sampled.component)))
 
     @cached_property
     def peaks(self) -> tuple[float, float]:
@@ -94,8 +108,7 @@ class Ground:
             ("PGV", f"{scale * pgv:.4g} m/s"),
             *self.facts,
         ]
-        name = " ".join(filter(None, (self.sampled.name, self.sampled.component))) or "ground motion"
-        return {"name": name, "facts": facts, "note": self.note, "pga": pga / GRAVITY}
+        return {"name": self.name or "ground motion", "facts": facts, "note": self.note, "pga": pga / GRAVITY}
 
 
 def thinned(times: np.ndarray, values: np.ndarray, most: int = MAX_DRAWN) -> tuple[np.ndarray, np.ndarray]:
@@ -120,40 +133,23 @@ def _example() -> GroundMotion:
     return example_ground_motion()
 
 
-def ground_of(shown: GroundView, channels: tuple[GroundMotion, ...]) -> Ground:
+def ground_of(shown: GroundView, channels: tuple[Ground, ...]) -> Ground:
     """Return the base motion of a view; `channels` are those of the file that the session has read."""
     if shown.source == "pulse":
         return Ground(Pulse(shown.kind, amplitude=shown.amplitude * GRAVITY, duration=shown.duration))
     if shown.source == "file":
-        motion = channels[min(shown.channel, len(channels)) - 1]
-        return Ground(motion, _remark(motion))
+        return channels[min(shown.channel, len(channels)) - 1]
     if shown.source == "example":
         return Ground(_example())
     return Ground(_synthetic()[int(shown.source[-1]) - 1])
 
 
-def read_file(name: str, data: bytes, shown: GroundView) -> tuple[GroundMotion, ...]:
+def read_file(name: str, data: bytes, shown: GroundView) -> tuple[Ground, ...]:
     """Read all channels of a file from memory; RecordError or ValueError with one sentence if that is not possible."""
     if len(data) > MAX_FILE:
         raise ValueError(f"{name}: larger than {MAX_FILE // 1_000_000} MB")
-    return read_apart(data, READING, name=name, units=shown.units or None, step=shown.step)
-
-
-def _remark(motion: GroundMotion) -> str:
-    """Return a sentence for each doubt about the record of a file."""
-    found = []
-    if motion.file is not None and motion.file.pga_agrees is False:
-        found.append(
-            f"The samples have a PGA of {motion.file.pga:.5g} m/s², the header states "
-            f"{motion.file.header_pga:.5g} m/s²."
-        )
-    if motion.vertical:
-        found.append(vertical_sentence([motion.component]))
-    if motion.drift_doubt:
-        found.append(
-            "the PGV is that of a drift, because the baseline is not corrected: give a corrected record"
-        )
-    return " ".join(f"{each[0].upper()}{each[1:]}" + "." * (each[-1] != ".") for each in found)
+    found = read_apart(data, READING, name=name, units=shown.units or None, step=shown.step)
+    return tuple(Ground(motion, doubts) for motion, doubts in found)
 
 
 def open_file(given: Any) -> tuple[str, bytes]:

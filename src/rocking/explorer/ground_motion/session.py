@@ -27,7 +27,6 @@ from rocking.explorer.ground_motion.view import (
 )
 from rocking.explorer.page_channel import STRANGE, Link, message
 from rocking.explorer.worker_pools import Workers
-from rocking.model import GroundMotion
 
 LOST = "the link shows a file, which is not part of the link: choose the file again"
 
@@ -41,7 +40,7 @@ class GroundSession:
         self.shown, self.opened = DEFAULT, False
         self.file: tuple[str, bytes] | None = None
         self.pending: GroundView | None = None  # view of the file, until it is read
-        self.channels: tuple[GroundMotion, ...] = ()
+        self.channels: tuple[Ground, ...] = ()
         in_turn = self.renderer.in_turn
         hear, receive = in_turn(self.hear), in_turn(self.receive)
         self.link.on_change("asked", lambda _name, _before, text: hear(text))
@@ -122,7 +121,7 @@ class GroundSession:
     def _refuse_file(self, sentence: str) -> None:
         self.link.send("refused", {"fields": {"file": sentence}})
 
-    def _accept(self, new: GroundView, channels: tuple[GroundMotion, ...], ground: Ground) -> None:
+    def _accept(self, new: GroundView, channels: tuple[Ground, ...], ground: Ground) -> None:
         self.channels, self.pending = channels, None
         self.link.send("refused", {"fields": {}})
         self.show(new, push=True, ground=ground)
@@ -167,6 +166,6 @@ class GroundSession:
             "angles": [new.angles.low, new.angles.high],
             "scales": SCALES,
             "ground": ground.words(new.scale),
-            "channels": [" ".join(filter(None, (each.name, each.component))) for each in self.channels],
+            "channels": [each.name for each in self.channels],
             "block": {"height": new.height, "width": new.width, "critical": new.block.critical_angle},
         }
