@@ -54,7 +54,15 @@ def wilson(count: Any, of: Any) -> tuple[Any, Any]:
 
 
 def _count(value: Any) -> int:
-    return whole("count, of and unknown", value, 0, MAX_COUNT)
+    return whole("count", value, 0, MAX_COUNT)
+
+
+def _of(value: Any) -> int:
+    return whole("of", value, 0, MAX_COUNT)
+
+
+def _unknown(value: Any) -> int:
+    return whole("unknown", value, 0, MAX_COUNT)
 
 
 @frozen
@@ -89,8 +97,8 @@ class Share:
     """
 
     count: int = field(converter=_count)
-    of: int = field(converter=_count)
-    unknown: int = field(default=0, converter=_count)
+    of: int = field(converter=_of)
+    unknown: int = field(default=0, converter=_unknown)
 
     def __attrs_post_init__(self) -> None:
         if self.count + self.unknown > self.of:
