@@ -277,8 +277,7 @@ def __getattr__(name: str) -> Any:
     else:
         rooms = {each: room for room, names in _NAMES for each in names.split()}
         found = {each: rooms.get(each, "model") for each in __all__ if each not in _SUB_NAMESPACES}
-        # other rooms return values of the model, whose methods have keywords, too
-        names = [each for each, room in found.items() if room in ("model", found[name])]
+        names = [each for each, room in found.items() if room == found[name]]
         for each in names:
             globals().setdefault(
                 each, getattr(import_module(f"rocking.{found[each]}"), _ALIAS.get(each, each))

@@ -131,7 +131,6 @@ UNKNOWN = {
     "near": (lambda: rocking.Block(2.0, 0.5, restituion=1), "Block() has no argument 'restituion' (did you mean 'restitution'?)"),
     "begun": (lambda: rocking.Block(h=2.0), "Block() has no argument 'h' (did you mean 'height'?)"),
     "method": (lambda: rocking.Block(2.0, 0.5).system(accel=3), "system() has no argument 'accel' (did you mean 'acceleration'?)"),
-    "method of a result": (lambda: rocking.simulate(SYSTEM, cycles=1).at(tim=1), "at() has no argument 'tim' (did you mean 'times'?)"),
     "theory": (lambda: rocking.theory.energy(angel=1), "energy() has no argument 'angel' (did you mean 'angle'?)"),
     "plot": (lambda: rocking.plot.modes(1.0, 0.9, amp=2.0), "modes() has no argument 'amp' (did you mean 'amplitude'?)"),
     "none": (lambda: rocking.cite(style=1), "cite() has no argument 'style' (it has none)"),

@@ -15,6 +15,7 @@ from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, BaseMotion, Harmon
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.ground_motion_doubts import vertical_sentence
 from rocking.model.input_warning import warn_of_value
+from rocking.model.keywords import explained
 from rocking.model.system import Braces, System, critical_angle_for
 from rocking.model.validation import MAX_REAL, exactly_one, instance, reals, refusal, within
 
@@ -123,6 +124,7 @@ class Block:
         """Coefficient of restitution e of Eq. (2): the given value, or Housner's."""
         return self.housner_restitution if self._restitution is None else self._restitution
 
+    @explained
     def system(
         self,
         base: BaseMotion | None = None,
@@ -191,9 +193,8 @@ class Block:
             raise TypeError(f"give base or {given[0]}, not both")
         if isinstance(base, GroundMotion) and base.vertical:
             warn_of_value(vertical_sentence([base.component]))
-        forcing = instance("base", base, BaseMotion).normalised(
-            self.acceleration(1.0), self.frequency_parameter
-        )
+        scales = self.acceleration(1.0), self.frequency_parameter
+        forcing = instance("base", base, BaseMotion).normalised(*scales)
         return System(forcing, self.restitution, braces, angle)
 
     def _harmonic(

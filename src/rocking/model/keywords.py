@@ -1,16 +1,16 @@
-"""Messages for keywords that a public function, class or method does not have, with the most similar one that it has."""
+"""Messages for keywords that a public function or class does not have, with the most similar one that it has."""
 
 from __future__ import annotations
 
 import difflib
 import inspect
 from collections.abc import Callable, Iterable, MutableMapping
-from enum import Enum
 from functools import wraps
-from typing import Any
+from typing import Any, TypeVar, cast
 
 from rocking.model.short_texts import shown
 
+Call = TypeVar("Call", bound=Callable[..., Any])
 MAX_LISTED = 180
 
 
@@ -30,24 +30,19 @@ def similar(name: str, known: Iterable[str]) -> str | None:
 def explain(namespace: MutableMapping[str, Any], names: Iterable[str]) -> None:
     """Let the public functions and classes in a namespace explain a keyword that they do not have.
 
-    A function is replaced in this namespace, and pickled by its name there. A class is changed: its constructor and
-    its public methods. Signatures and docstrings stay the same.
+    A function is replaced in this namespace, and pickled by its name there. A class gets another constructor. Signatures and
+    docstrings stay the same.
     """
     for name in names:
         value = namespace[name]
         if inspect.isfunction(value):
-            namespace[name] = _explained(value)
+            namespace[name] = explained(value)
             namespace[name].__module__ = namespace["__name__"]
-        elif inspect.isclass(value) and not issubclass(value, Enum):
-            for owner in value.__mro__:
-                for key, method in (
-                    list(vars(owner).items()) if owner.__module__.startswith("rocking.") else []
-                ):
-                    if inspect.isfunction(method) and (key == "__init__" or not key.startswith("_")):
-                        setattr(owner, key, _explained(method))
+        elif inspect.isclass(value) and "__init__" in vars(value):
+            value.__init__ = explained(value.__init__)  # type: ignore[method-assign]
 
 
-def _explained(function: Callable[..., Any]) -> Callable[..., Any]:
+def explained(function: Call) -> Call:
     """Return the function with a message for an unknown keyword that names the function and the nearest keyword."""
     if hasattr(function, "__wrapped__"):
         return function
@@ -64,7 +59,7 @@ def _explained(function: Callable[..., Any]) -> Callable[..., Any]:
             name = function.__qualname__.removesuffix(".__init__").rpartition(".")[-1]
             raise TypeError(_unknown(name, wrong[0], [key for key in known if key != "self"])) from None
 
-    return call
+    return cast(Call, call)
 
 
 def _unknown(name: str, wrong: str, known: list[str]) -> str:
