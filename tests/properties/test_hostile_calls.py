@@ -1,7 +1,8 @@
 """Hostile calls: one or two arguments of a public function, class or method are replaced by values of every kind.
 
 A call returns, or raises a documented error: in one short line that names an argument, and raised by a `raise` of the
-package, not by a library or by an operation that failed. It writes nothing outside the working folder.
+package, not by a library or by an operation that failed. It writes nothing outside the working folder. All warnings are those of
+unlikely input, and name the line of the call.
 """
 
 import datetime as dt
@@ -381,7 +382,7 @@ def problems(name, changed):
     if wrote:
         yield f"wrote {wrote[0]}"
     for each in warned:
-        if each.category is not UserWarning or each.filename.startswith(SOURCE) is False:
+        if (each.category, each.filename) != (rk.InputWarning, __file__):
             yield f"warning {each.category.__name__}: {each.message}"[:150]
     if time.process_time() - before > LONGEST_CALL:
         yield f"took {time.process_time() - before:.1f} s"
