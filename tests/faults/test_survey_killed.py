@@ -119,7 +119,7 @@ def test_full_disk_is_said_and_what_was_written_stays_good(name, tmp_path):
     done = ran(FULL, name, folder)
     assert done.stdout == (
         f"store {str(folder)!r} cannot be written: File too large; "
-        "the existing data are intact: free some space and run again\n"
+        "existing data are unchanged (free some space, or give another path)\n"
     )
     written = chunks(folder, "level-0")
     survey.run(undisturbed, **survey.uneven)

@@ -16,6 +16,7 @@ from rocking.model.atomic_files import (
     replacing,
     replacing_folder,
 )
+from rocking.survey.store.locking import wrap_write_errors
 
 
 def names(folder):
@@ -74,6 +75,24 @@ def test_refusal_of_the_system_names_what_cannot_be_written(tmp_path, writing, f
     with pytest.raises(WriteError, match=re.escape(told)):
         fail()
     assert names(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    "number, first",
+    [(errno.ENOSPC, "free some space, or "), (errno.EROFS, "give permission to write, or "), (errno.EIO, "")],
+)
+def test_remedy_of_a_failed_write_fits_its_error(tmp_path, number, first):
+    def fail(opened):
+        with opened:
+            raise OSError(number, os.strerror(number))
+
+    told = (
+        f" cannot be written: {os.strerror(number)}; existing data are unchanged ({first}give another path)"
+    )
+    for opened in (replacing(tmp_path / "out"), wrap_write_errors(tmp_path / "out")):
+        with pytest.raises(OSError) as caught:
+            fail(opened)
+        assert str(caught.value).endswith(f"{str(tmp_path / 'out')!r}{told}")
 
 
 def test_failure_that_is_none_of_the_system_is_raised_as_it_is(tmp_path):
@@ -144,10 +163,16 @@ def test_file_or_folder_that_replaces_one_keeps_its_permissions_and_its_owner(tm
     assert file.stat().st_mtime_ns > before
 
 
-def test_group_that_cannot_be_kept_leaves_another_group_what_all_others_may(tmp_path, monkeypatch):
+@pytest.mark.parametrize("number", [errno.EPERM, errno.EINVAL])  # EINVAL: unknown in the user namespace
+def test_group_that_cannot_be_kept_leaves_another_group_what_all_others_may(tmp_path, monkeypatch, number):
     def refuse(path, owner, group):
-        raise PermissionError(errno.EPERM, "Operation not permitted")
+        raise OSError(number, os.strerror(number))
 
+    def change(path, mode, **how):
+        modes.append(mode)
+        chmod(path, mode, **how)
+
+    chmod, modes = os.chmod, []
     group = OWNER[1] if os.geteuid() == 0 else os.getgroups()[-1]
     for mode, left in ((0o664, 0o644), (0o640, 0o600), (0o604, 0o604)):
         file = tmp_path / f"{mode:o}.csv"
@@ -156,9 +181,11 @@ def test_group_that_cannot_be_kept_leaves_another_group_what_all_others_may(tmp_
         file.chmod(mode)
         with monkeypatch.context() as patch:
             patch.setattr(os, "chown", refuse)
+            patch.setattr(os, "chmod", change)
             with replacing(file) as temporary:
                 temporary.write_text("new")
-        assert access(file)[0] == (left if group != os.getegid() else mode)
+        assert access(file)[0] == modes.pop() == (left if group != os.getegid() else mode)
+        assert modes == []  # not for a moment more
 
 
 def test_writable_path_is_returned_and_not_created(tmp_path):

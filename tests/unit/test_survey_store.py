@@ -24,7 +24,9 @@ from rocking.survey.engine import tile_loop
 from rocking.survey.store import store
 from rocking.survey.store.chunk_files import Files
 from rocking.survey.store.layout import check_same
+from rocking.survey.store.locking import ROOT
 from rocking.survey.store.locking import lock as lock_of_store
+from rocking.survey.store.memory import memory_size
 
 SIZE = 130
 ASKED = {
@@ -325,7 +327,7 @@ def test_full_disk_while_a_store_is_made_is_said_once(tmp_path, monkeypatch, cap
         patch.setattr(Files, "set_sync", full)
         with pytest.raises(
             OSError,
-            match=r"cannot be written: No space left on device; the existing data are intact: free some space and run again",
+            match=r"cannot be written: No space left on device; existing data are unchanged \(free some space, or give another path\)",
         ):
             rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
     gc.collect()
@@ -417,8 +419,9 @@ def test_complete_store_of_another_method_or_older_format_is_read_with_a_warning
 ):
     told = outdated(copied, monkeypatch, what)
     before = files(copied)
-    with pytest.warns(UserWarning, match=re.escape(f"read from store {str(copied)!r}: {told}")):
+    with pytest.warns(rk.InputWarning, match=re.escape(f"read from store {str(copied)!r}: {told}")) as warned:
         kept = rk.parametric_map(**ASKED, store=copied)
+    assert warned[0].filename == __file__
     assert kept.load().equals(plain)
     assert kept.attrs["method"] == METHOD
     rk.plot.parametric_map(copied)
@@ -630,6 +633,37 @@ def test_limit_of_the_memory_of_the_process_counts(monkeypatch):
         rk.parametric_map(**(ASKED | many))
 
 
+def test_limit_of_the_memory_of_a_container_counts(tmp_path, monkeypatch):
+    limits = [tmp_path / name for name in ("memory.max", "memory.limit_in_bytes", "missing")]
+    monkeypatch.setattr("rocking.survey.store.memory.LIMITS", limits)
+    for first, second in (("400000000\n", "9223372036854771712\n"), ("max\n", "400000000\n")):
+        limits[0].write_text(first)
+        limits[1].write_text(second)
+        assert memory_size() == 4e8
+
+
+def refusal(deep):
+    with pytest.raises(OSError) as caught:
+        rk.parametric_map(**ASKED, store=deep)
+    return str(caught.value)
+
+
+def test_messages_about_a_store_with_a_long_path_stay_short(made, tmp_path):
+    deep = shutil.copytree(made, tmp_path / ("a" * 150) / "map.zarr")
+    with lock_of_store(deep, shared=False):
+        said = {"is in use by another run": refusal(deep)}
+    for chunk in deep.glob("level-1/*/c/*/*"):
+        chunk.write_bytes(b"")
+    said["; … (recompute these tiles with repair)"] = refusal(deep)
+    (deep / ROOT).write_text("{")
+    said["is damaged: one of its files"] = refusal(deep)
+    (deep / ROOT).unlink()
+    said["which is a folder that contains"] = refusal(deep)
+    for told, message in said.items():
+        assert told in message
+        assert "a" * 150 not in message
+
+
 def test_store_that_does_not_fit_into_the_memory_is_not_called_damaged(made, monkeypatch):
     def fail(*_, **__):
         raise MemoryError
@@ -734,7 +768,7 @@ def test_damage_in_a_coarse_level_is_mended_there(copied, plain):
     for chunk in ("level-0/peak/c/0/0", "level-1/kind/c/0/1"):
         (copied / chunk).write_bytes(b"")
     with pytest.raises(
-        OSError, match="level-0/peak/c/0/0', .*level-1/kind/c/0/1' \\(recompute these tiles with repair\\)$"
+        OSError, match="level-0/peak/c/0/0'; .*level-1/kind/c/0/1' \\(recompute these tiles with repair\\)$"
     ):
         rk.parametric_map(**ASKED, store=copied)
     rk.parametric_map(**ASKED, store=copied, repair=True)

@@ -8,9 +8,7 @@ from rocking.model import notebook_renderers
 from rocking.model.access_rights import takes_files
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.atomic_files import (
-    FULL,
     TILES,
-    WriteError,
     check_folder,
     check_replaceable,
     check_writable,
@@ -111,6 +109,7 @@ from rocking.model.validation import (
 )
 from rocking.model.verdict import Evidence, Verdict
 from rocking.model.version import VERSION
+from rocking.model.write_errors import FULL, WriteError, not_written
 
 __all__ = [
     "BASELINES",
@@ -215,6 +214,7 @@ __all__ = [
     "listed",
     "members",
     "named",
+    "not_written",
     "notebook_renderers",
     "one_of",
     "orbit_in_words",

@@ -16,17 +16,19 @@ PRIVATE, PRIVATE_FOLDER = 0o600, 0o700
 def keep_access(before: Path, made: Path) -> None:
     """Give a file or folder the permissions of the one that it replaces and, where allowed, its owner and group.
 
-    If the group cannot be kept, another group gets no more permissions than all other users have.
+    If the group cannot be kept, another group gets no more permissions than all other users have. Extended attributes, such as lists
+    of access rights, are then left out.
     """
     old = before.stat()
     if hasattr(os, "chown"):  # Windows has none
         for owner in (old.st_uid, -1):
-            with suppress(PermissionError):
+            with suppress(OSError):  # also a group that a user namespace does not have
                 os.chown(made, owner, old.st_gid)
                 break
-    shutil.copystat(before, made)
-    os.utime(made)
-    if made.stat().st_gid != old.st_gid:
+    if made.stat().st_gid == old.st_gid:
+        shutil.copystat(before, made)
+        os.utime(made)
+    else:
         others = old.st_mode & stat.S_IRWXO
         made.chmod(stat.S_IMODE(old.st_mode) & ~(stat.S_IRWXG & ~(others << 3)))
 

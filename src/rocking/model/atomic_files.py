@@ -18,13 +18,7 @@ from attrs import frozen
 from rocking.model.access_rights import PRIVATE, PRIVATE_FOLDER, keep_access, takes_files
 from rocking.model.short_texts import shown_path
 from rocking.model.validation import refusal
-
-FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
-"""Error numbers of the operating system for a full disk, an exhausted quota and a file that is too large."""
-
-
-class WriteError(OSError):
-    """Output that cannot be written, for example on a full disk. The message names it and the remedy."""
+from rocking.model.write_errors import FULL, WriteError, not_written
 
 
 def path_of(name: str, value: Any) -> Path:
@@ -169,10 +163,7 @@ def _writing(path: str | os.PathLike[str]) -> Iterator[None]:
         failure = _system_error(error)
         if failure is None or failure.errno is None:
             raise
-        raise WriteError(
-            f"{shown_path(path)} cannot be written: {failure.strerror}; existing data are unchanged "
-            "(free some space, or give another path)"
-        ) from error
+        raise WriteError(not_written(shown_path(path), failure)) from error
 
 
 def _system_error(error: BaseException | None) -> OSError | None:

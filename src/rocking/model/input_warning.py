@@ -8,7 +8,7 @@ from types import FrameType
 
 from rocking.model import keywords
 
-OWN = ("rocking", "attr", "attrs")
+OWN = ("rocking", "attr", "attrs", "contextlib")
 
 
 class InputWarning(UserWarning):

@@ -168,12 +168,13 @@ def files_of(places: Mapping[str, Path], records: RecordSet) -> dict[str, Path]:
     Records are also the files that a folder or a table names, and copies of them.
     """
     from rocking.cli.output.survey_run import files_of as survey_files
+    from rocking.model import shown_path
 
     files = survey_files(places)
     contents = {motion.file.sha256 for motion in records if motion.file is not None}
     for name, path in files.items():
         if _digest(path) in contents:
-            raise YourInput(f"{option(name)} must not overwrite a record; got {str(path)!r}")
+            raise YourInput(f"{option(name)} must not overwrite a record; got {shown_path(path)}")
     return files
 
 

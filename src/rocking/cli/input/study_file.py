@@ -115,7 +115,7 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
 
     Keys are the names of options, with hyphens or underscores.
     """
-    from rocking.model import similar
+    from rocking.model import shown_path, similar
 
     said = _entries(path)
     _check_once(path, said)
@@ -132,13 +132,15 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
     if any(similar(name, checks) is None and not _is_section(said[keys[name]]) for name in unknown):
         errors.append("keys of this command: " + ", ".join(name.replace("_", "-") for name in checks))
     if errors:
-        raise YourInput(f"study {str(path)!r}: " + "; ".join(errors))
+        raise YourInput(f"study {shown_path(path)}: " + "; ".join(errors))
     return found
 
 
 def _entries(path: Path) -> dict[str, Any]:
     """Return the keys and values of a study file; YourInput if it cannot be read."""
     import tomllib
+
+    from rocking.model import shown_path
 
     try:
         return tomllib.loads(_text(path))
@@ -148,18 +150,20 @@ def _entries(path: Path) -> dict[str, Any]:
             why = "the file is nested too deeply"
         elif isinstance(error, UnicodeDecodeError):
             why = "the file is not text in UTF-8"
-        raise YourInput(f"--study must name a TOML file; got {str(path)!r}: {why}") from error
+        raise YourInput(f"--study must name a TOML file; got {shown_path(path)}: {why}") from error
 
 
 def with_keys(message: str, path: Path, typed: Collection[str]) -> str:
     """Return a message with the keys of a study file that give the options named in it, except options `typed` as well."""
+    from rocking.model import shown_path
+
     given = [key for key in _entries(path) if key.replace("-", "_") not in typed]
     named = [
         key
         for key in given
         if re.search(rf"(?<![\w-])--?{re.escape(key.replace('_', '-'))}(?![\w-])", message)
     ]
-    return f"{message} (study {str(path)!r} gives {', '.join(named)})" if named else message
+    return f"{message} (study {shown_path(path)} gives {', '.join(named)})" if named else message
 
 
 def _text(path: Path) -> str:
@@ -175,10 +179,12 @@ def _text(path: Path) -> str:
 
 def _check_once(path: Path, said: Mapping[str, Any]) -> None:
     """Raise YourInput for a key that occurs with hyphens and with underscores."""
+    from rocking.model import shown_path
+
     twice = [key for key in said if "-" in key and key.replace("-", "_") in said]
     if twice:
         raise YourInput(
-            f"study {str(path)!r}: {twice[0]!r} occurs twice, with hyphens and with underscores (remove one)"
+            f"study {shown_path(path)}: {twice[0]!r} occurs twice, with hyphens and with underscores (remove one)"
         )
 
 

@@ -16,6 +16,7 @@ from rocking.model import (
     replacing,
     replacing_hdf5,
     resolve_path,
+    shown_path,
 )
 
 if TYPE_CHECKING:
@@ -62,13 +63,15 @@ def _check_apart(paths: Mapping[str, Path | None]) -> None:
             place = resolve_path(option(name), path)
         for there, what in inputs.items():
             if _same(place, there.resolve()):
-                raise YourInput(f"{option(name)} must not overwrite {what}; got {str(path)!r}")
+                raise YourInput(f"{option(name)} must not overwrite {what}; got {shown_path(path)}")
         for there, other in taken.items():
             if _same(place, there):
-                raise YourInput(f"{option(other)} and {option(name)} must differ; got {str(path)!r} for both")
+                raise YourInput(
+                    f"{option(other)} and {option(name)} must differ; got {shown_path(path)} for both"
+                )
             if place.is_relative_to(there) or there.is_relative_to(place):
                 raise YourInput(
-                    f"{option(other)} and {option(name)} must not lie inside each other; got {str(path)!r} for {option(name)}"
+                    f"{option(other)} and {option(name)} must not lie inside each other; got {shown_path(path)} for {option(name)}"
                 )
         taken[place] = name
 

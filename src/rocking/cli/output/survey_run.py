@@ -66,7 +66,9 @@ def complete(store: Path | None) -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         if store is not None:
-            note = f"{option('store')} {str(store)!r} is complete; repeat the command to write the remaining files"
+            from rocking.model import shown_path
+
+            note = f"{option('store')} {shown_path(store)} is complete; repeat the command to write the remaining files"
             print(f"rocking: {note}", file=sys.stderr)
         raise
 

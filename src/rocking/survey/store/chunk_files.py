@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,7 @@ from zarr.abc.store import ByteRequest
 from zarr.buffer import default_buffer_prototype
 from zarr.storage import LocalStore
 
-from rocking.model import renaming
+from rocking.model import renaming, shown_path
 from rocking.survey.store.locking import ROOT, StoreError, place_of
 
 SHRINK = Blosc("lz4", clevel=1, shuffle=Blosc.SHUFFLE)
@@ -70,7 +69,7 @@ class Files(LocalStore):
         """Raise StoreError if the folder is no longer the one that was opened."""
         if self.place != place_of(self.root):
             raise StoreError(
-                f"store {os.fspath(self.root)!r} was moved, deleted or replaced during the run, which writes nothing more "
+                f"store {shown_path(self.root)} was moved, deleted or replaced during the run, which writes nothing more "
                 "(run again with the folder in its place, or with another one)"
             )
 

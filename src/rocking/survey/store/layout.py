@@ -175,7 +175,7 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
             exact[:reach:step] = there
             return exact, times
     raise ValueError(
-        f"store {path!r} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}; the requested {here.size} "
+        f"store {shown_path(path)} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}; the requested {here.size} "
         f"from {here[0]:.6g} to {here[-1]:.6g} omit some of them (give these values; more values beyond "
         "the last or at half the spacing are possible)"
     )

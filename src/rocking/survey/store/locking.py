@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import current_thread, main_thread
 
-from rocking.model import FULL, check_folder, refusal, resolve_path
+from rocking.model import check_folder, not_written, refusal, resolve_path, shown_path
 
 ROOT = "zarr.json"
 UNFINISHED = re.compile(r"(zarr|\d+)\.[0-9a-f]{32}\.partial")
@@ -31,7 +31,7 @@ def check_store(path: str | os.PathLike[str]) -> Path:
     folder = Path(path)
     place = resolve_path("store", folder)
     if place.exists() and not place.is_dir():
-        raise StoreError(f"store must be the path of a folder; got {str(path)!r}, which is a file")
+        raise StoreError(f"store must be the path of a folder; got {shown_path(path)}, which is a file")
     if not (place / ROOT).is_file():
         check_folder("store", folder)
     names = {each.name for each in place.iterdir()} if place.exists() else set()
@@ -43,7 +43,7 @@ def check_store(path: str | os.PathLike[str]) -> Path:
 
 def something_else(folder: Path, what: str) -> str:
     """Return the message for a folder that is not a store of a survey."""
-    return f"store must be a new folder, or the folder of an earlier survey; got {str(folder)!r}, which is {what}"
+    return f"store must be a new folder, or the folder of an earlier survey; got {shown_path(folder)}, which is {what}"
 
 
 def place_of(folder: Path) -> tuple[int, int] | None:
@@ -71,7 +71,7 @@ def lock(folder: Path, *, shared: bool) -> Iterator[None]:
             fcntl.flock(handle, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
         except BlockingIOError:
             raise StoreError(
-                f"store {str(folder)!r} is in use by another run; wait until that run ends, or stop it"
+                f"store {shown_path(folder)} is in use by another run; wait until that run ends, or stop it"
             ) from None
         yield
     finally:
@@ -103,11 +103,7 @@ def wrap_write_errors(folder: Path) -> Iterator[None]:
     except StoreError:
         raise
     except OSError as error:
-        why = error.strerror or str(error)
-        remedy = "; the existing data are intact: free some space and run again"
-        if error.errno not in FULL:
-            remedy = " (make the folder writable, or give another one)"
-        raise StoreError(f"store {str(folder)!r} cannot be written: {why}{remedy}") from error
+        raise StoreError(not_written(f"store {shown_path(folder)}", error)) from error
 
 
 @contextmanager
@@ -118,10 +114,10 @@ def reading(folder: Path) -> Iterator[None]:
     except (StoreError, MemoryError):
         raise
     except PermissionError as error:
-        raise StoreError(f"store {str(folder)!r} cannot be read: {error.strerror}") from error
+        raise StoreError(f"store {shown_path(folder)} cannot be read: {error.strerror}") from error
     except Exception as error:
         raise StoreError(
-            f"store {str(folder)!r} is damaged: one of its files {ROOT} cannot be read ({error}); "
+            f"store {shown_path(folder)} is damaged: one of its files {ROOT} cannot be read ({error}); "
             "restore it from a backup, or give another folder"
         ) from error
 

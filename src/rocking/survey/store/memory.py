@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from contextlib import suppress
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 SHARE = 0.5
 """Largest fraction of the memory that a survey may take."""
+LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+"""Files with the limit of a container in bytes, of versions 2 and 1 of control groups."""
 
 
 class Memory:
@@ -64,10 +67,13 @@ def check_fits(asked: SurveySpec, measure: Measurement) -> None:
 
 
 def memory_size() -> float:
-    """Return the memory that this process may use in bytes: that of the machine, or its limit; infinite if unknown."""
+    """Return the memory that this process may use in bytes: that of the machine, or a limit; infinite if unknown."""
     size = math.inf
     with suppress(AttributeError, ValueError, OSError):
         size = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    for limit_file in LIMITS:
+        with suppress(OSError, ValueError):  # no such file, or no limit
+            size = min(size, int(Path(limit_file).read_text()))
     with suppress(ImportError):  # only Unix has this limit
         import resource
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import takes_files
+from rocking.model import listed, shown_path, takes_files, warn_of_input
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.store import tile_digests, zarr_metadata
@@ -47,7 +46,6 @@ if TYPE_CHECKING:
 
 NAME = "rocking_survey"
 """Attribute of the root group that identifies the store of a survey."""
-MAX_NAMED = 5
 MAX_POINTS = 10**11
 """Largest number of points of a store: about a terabyte in tens of millions of files."""
 MAX_HELD = 1 << 20
@@ -110,7 +108,7 @@ class Store:
         for each in self.measure.variables:
             if (found[each.name] == each.fill).any():
                 raise StoreError(
-                    f"store {str(self.path)!r} lost files during the run (run again to recompute them)"
+                    f"store {shown_path(self.path)} lost files during the run (run again to recompute them)"
                 )
         return found
 
@@ -154,20 +152,17 @@ class Store:
         found: list[str] = []
         for tile in (tile for level in self.levels for tile in self._marked(level)):
             points, damaged = self._inspected(tile)
-            found += [repr(str(self.path / name)) for name in damaged]
+            found += [shown_path(self.path / name) for name in damaged]
             if not damaged:
                 self.begun[tile.level.number, tile.index] = points
                 self.done += int(tile.own(self.known(tile)).sum())
         if found and not repair:
-            more = f" and {len(found) - MAX_NAMED} more" if len(found) > MAX_NAMED else ""
             remedy = (
                 "restore these files, or give another folder"
                 if self.finished
                 else "recompute these tiles with repair"
             )
-            raise StoreError(
-                f"store {str(self.path)!r} is damaged at {', '.join(found[:MAX_NAMED])}{more} ({remedy})"
-            )
+            raise StoreError(f"store {shown_path(self.path)} is damaged at {listed(found)} ({remedy})")
 
     def _marked(self, level: Level) -> list[Tile]:
         """Return the tiles of a level that are marked as complete, from a list of the folder instead of a test of each tile."""
@@ -254,7 +249,7 @@ class Store:
         self.finished = self.outdated or self.finished
         if self.finished:
             self.files.refusal = (
-                f"store {str(self.path)!r} lacks some of these points and cannot be resumed: {self.finished} "
+                f"store {shown_path(self.path)} lacks some of these points and cannot be resumed: {self.finished} "
                 "(give another folder; what is there can be read and plotted)"
             )
         with reading(self.path):
@@ -300,7 +295,7 @@ def opened(
     with lock(folder, shared=not writable):
         kept = Store(folder, asked, measure, repair=repair, writable=writable)
         if kept.outdated:
-            warnings.warn(f"all results are read from store {str(folder)!r}: {kept.outdated}", stacklevel=2)
+            warn_of_input(f"all results are read from store {shown_path(folder)}: {kept.outdated}")
         yield kept
 
 
