@@ -151,7 +151,7 @@ def test_legend_over_basins_with_long_names_fits_the_figure():
     legend, figure = ax.get_legend().get_window_extent(), ax.figure.bbox
     assert figure.x0 <= legend.x0
     assert legend.x1 <= figure.x1
-    assert ax.get_window_extent().width > 0.75 * figure.width
+    assert ax.get_window_extent().width > 0.7 * figure.width
     plt.close(ax.figure)
 
 

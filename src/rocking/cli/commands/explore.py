@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-import webbrowser
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -75,6 +74,8 @@ def explore(
 
 def _open(page: Path, address: str) -> None:
     """Open a page that leads to an address. All users of the computer see the arguments of the browser."""
+    import webbrowser
+
     page.write_text(f'<meta http-equiv="refresh" content="0; url={address}">\n', encoding="utf-8")
     webbrowser.open(page.as_uri(), new=2)
 
