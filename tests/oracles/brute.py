@@ -82,7 +82,7 @@ def march(amplitude, omega, restitution, cycles, rows, angle=0.0, velocity=0.0, 
     """Return the end of a run from ``angle`` and ``velocity`` at ψ = ``phase``; ``rows`` takes the ends of its last cycles."""
     ripple, turn = amplitude / (1 + omega**2), 2 * math.pi
     samples = math.ceil(DENSITY * max(1.0, turn / omega))
-    step, lift = turn / samples, math.acos(min(1 / amplitude, 1.0))  # of ψ
+    step, lift = turn / samples, math.acos(1 / max(amplitude, 1.0))  # of ψ
     psi, side = phase, -1 if angle < 0 or (angle == 0 and velocity <= 0) else 1
     u, v, reach, lifted = side * angle, side * velocity, math.inf, False
     rests = angle == 0 and velocity == 0

@@ -77,7 +77,7 @@ def tangent_of(matrix):
 
 @pytest.mark.parametrize("which", [REAL, COMPLEX, BALL])
 def test_no_state_below_the_limit_leaves_its_fixed_point(which):
-    """Of the states that converge, more than a tenth must also be accepted: a limit of zero accepts none."""
+    """More than a tenth of the states that converge must be accepted, because a limit of zero accepts none."""
     accepted, converging = 0, 0
     for first, second, jacobian, bend, state in maps(which, 1_500, 17):
         curvature = approach.Curvature(True, tangent_of(bend[:, :, 0]), tangent_of(bend[:, :, 1]))

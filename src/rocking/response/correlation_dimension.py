@@ -263,7 +263,7 @@ def _cloud(points: ArrayLike) -> Array:
             refusal("points", allowed, points, "pass the points of its section, motion.section()")
         )
     try:
-        cloud = np.asarray(reals("points", points, np.finfo(float).max))
+        cloud = np.asarray(reals("points", points))
     except TypeError:
         raise TypeError(refusal("points", allowed, points)) from None
     if cloud.ndim == 1:

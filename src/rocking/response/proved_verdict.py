@@ -6,7 +6,7 @@ from typing import Literal
 
 from attrs import evolve
 
-from rocking.model import System, Verdict, one_of
+from rocking.model import System, Verdict, refuse_if
 from rocking.proof import check_provable, prove
 
 Wanted = bool | Literal["orbit"]
@@ -22,8 +22,8 @@ def check_wanted(wanted: Wanted, system: System) -> None:
     ValueError
         If the block is not slender, or `wanted` is neither a boolean nor "orbit".
     """
-    if not isinstance(wanted, bool):
-        one_of("prove", wanted, ("orbit",))
+    known = isinstance(wanted, bool) or (isinstance(wanted, str) and wanted == "orbit")
+    refuse_if(not known, "prove", 'be False, True or "orbit"', wanted)
     if wanted:
         check_provable(system)
 
