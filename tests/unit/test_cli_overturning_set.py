@@ -195,7 +195,7 @@ def test_no_record_is_overwritten(rocking, folder, source, monkeypatch):
         ),
         (
             "push.csv --units g",
-            "push.csv: the file states the unit of its samples, m/s²; do not give --units",
+            "push.csv: the header names m/s²; omit --units, or correct the header",
         ),
         ("push.csv --baseline cubic", "--baseline must be one of 'none', 'mean', 'linear', 'quadratic'; got"),
     ],
