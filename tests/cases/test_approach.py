@@ -47,6 +47,17 @@ def test_a_motion_beyond_the_unstable_orbit_is_not_taken_for_one_on_the_stable_o
         assert np.hypot(*(on_orbit - rows[-1]).T).min() < SAME
 
 
+@pytest.mark.parametrize("below", [1e-13, 1e-12, 1e-11])
+def test_below_a_fold_there_is_no_stable_orbit(below):
+    """The residual of Newton's method is as small there as that of an orbit; the motion comes to rest after 10⁵ cycles and more."""
+    system = rk.System(
+        rk.Harmonic(float(rk.theory.existence_amplitude(1.0, 0.925, 1)) - below, period=1.0), 0.925
+    )
+    for beside in (0.0, 1e-7, 1e-6, 1e-5, 1e-4):
+        start = rk.State(-0.0021942076827103523, -0.2259124224453484 - beside)
+        assert rk.classify(system, start, max_cycles=20_000).kind != "periodic"
+
+
 def displaced(rng, orbit):
     """Return the numbers of a motion that starts beside an orbit, at a random instant and in a random direction."""
     forcing = orbit.system.forcing

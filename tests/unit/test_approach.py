@@ -23,10 +23,10 @@ REAL, COMPLEX, BALL = range(3)
 def excess(which, bend, tangent, first, second, x, y):
     """Return the terms over their limit; the multipliers are real, or ``first`` +- i ``second``."""
     if which == REAL:
-        return approach.excess_of_real(bend, tangent, first, second, x, y)[0]
+        return approach.excess_of_real(bend, tangent, first, second, x, y, 0.0)[0]
     if which == COMPLEX:
         return approach.excess_of_complex(bend, tangent, complex(first, second), x, y)
-    return approach.excess_in_ball(bend, tangent, max(abs(first), abs(second)), x, y)
+    return approach.excess_in_ball(bend, tangent, max(abs(first), abs(second)), x, y, 0.0)
 
 
 @njit(**KERNEL)
@@ -111,3 +111,26 @@ def test_a_fast_part_does_not_hide_that_the_slow_part_grows():
         u, s = states[-1]
         states.append((1.002 * u - 0.05 * s, sigma * s))  # it grows by 0.2 % where ρ predicts that it shrinks
     assert not slow_part_shrinks(np.array(states), 3, Tangent(rho, 0.0, 0.0, sigma), rho, sigma)
+
+
+@njit(**KERNEL)
+def from_returns(section, tangent):
+    image = MapImage(True, 0.0, 0.0, tangent, 2, 0, math.nan, (0.0, 0.0))
+    return approach.curvature_of_returns(section, 3, 1, FixedPoint(True, 0.0, 0.0, image, 0.0, 0.0, 0))
+
+
+def test_three_returns_in_distinct_directions_give_the_second_derivative():
+    known = 0
+    for _, _, jacobian, bend, state in maps(COMPLEX, 300, 5):
+        states = [state]
+        for _ in range(3):
+            states.append(jacobian @ states[-1] + 0.5 * (bend @ states[-1] @ states[-1]))
+        found = from_returns(np.array(states), tangent_of(jacobian))
+        if found.known:
+            known += 1
+            rounding = 1e-14 / np.hypot(*np.transpose(states)).min() / approach.SPREAD**2
+            expected = np.array([tangent_of(bend[:, :, 0]), tangent_of(bend[:, :, 1])])
+            assert np.array([found.by_angle, found.by_velocity]) == pytest.approx(
+                expected, abs=rounding, rel=1e-8
+            )
+    assert known > 50

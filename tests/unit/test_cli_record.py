@@ -75,7 +75,7 @@ def test_overturning_is_told_with_its_time_and_is_a_success(rocking):
     assert motion.outcome == "overturned"
     first, text = told(rocking, f"push.csv {SIZE}")
     assert first == f"overturned: certain from t = {BLOCK.seconds(motion.overturning.time):.4g} s"
-    assert "to spare" in text
+    assert "more than it needed to overturn" in text
     assert "largest |θ|" not in text
 
 

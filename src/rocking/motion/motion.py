@@ -39,7 +39,7 @@ class Motion(Trajectory, NotebookPicture):
         Largest |Θ| of the run, [0, `duration`]. If the block overturns, the run ends before the angle reaches 90°, and `peak`
         says nothing about the fall.
     margin : float
-        What the block lacked to overturn (negative) or had to spare, in units of αθcr. It is the K₊ of least size over all
+        What the block lacked to overturn (negative), or had beyond that, in units of αθcr. It is the K₊ of least size over all
         lift-offs and impacts.
 
         K₊ = v − 1 − σR(τ), with the speed v and the side σ afterwards. R(τ) is the integral of e^(τ−x) a(x) over all later x.

@@ -131,7 +131,11 @@ def margin(motion: Motion, block: Block) -> str:
             return "undefined for the full equation of motion"
         return "undefined " + ("between braces" if motion.system.braces else "for a block that never moves")
     speed = common.in_si("velocity", abs(motion.margin), block)
-    how = f"had {speed} to spare" if motion.margin >= 0 else f"lacked {speed} to overturn"
+    how = (
+        f"had {speed} more than it needed to overturn"
+        if motion.margin >= 0
+        else f"lacked {speed} to overturn"
+    )
     if motion.margin < 0 and motion.outcome is Outcome.OVERTURNED:
         how += ", but overturned later"
     return f"{motion.margin:.4g}: at t = {block.seconds(motion.margin_time):.4g} s the block {how}"

@@ -131,7 +131,7 @@ def margin_in_words(motion: Motion, block: Block) -> str:
     size, time = abs(motion.margin), block.seconds(motion.margin_time)
     speed = f"{size:.3g} α θcr = {math.degrees(block.radians_per_second(size)):.3g} °/s"
     if motion.margin >= 0.0:
-        return f"Closest decision at t = {time:.4g} s: the block had a speed of {speed} to spare."
+        return f"Closest decision at t = {time:.4g} s: the block was faster than it had to be to overturn, by {speed}."
     if motion.outcome == Outcome.OVERTURNED:
         return f"Closest decision at t = {time:.4g} s: the block lacked a speed of {speed}, but overturned later."
     return f"Closest to overturning at t = {time:.4g} s: the block lacked a speed of {speed}."

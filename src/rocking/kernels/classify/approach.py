@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
-from rocking.kernels.march.initial_state import UNKNOWN
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent, TangentState
 from rocking.kernels.numerics.elementary import size
@@ -29,6 +28,9 @@ BENDING = 0.3
 SLOWEST = 0.3
 # Multipliers are distinct if the rates of their parts differ by this factor. Otherwise both parts are slow.
 DISTINCT = 2.0
+# The returns of the motion itself give its second-order terms if the sines of the angles between three of them are at
+# least SPREAD. If these terms are clearly below their limit, no more motions are computed.
+SPREAD, CLEARLY_BELOW = 0.2, 0.25
 # Largest predicted number of returns.
 MAX_RETURNS = 1 << 20
 
@@ -62,8 +64,8 @@ def curvature(mapping, found, columns, nothing):
     state, image = TangentState(columns, nothing.tangent.growth), found.image
     slopes, known = (image.tangent, image.tangent), False
     for step in (STEP, -STEP):
-        one = image_after(mapping, Guess(found.angle + step, found.velocity, UNKNOWN), recording, state)
-        two = image_after(mapping, Guess(found.angle, found.velocity + step, UNKNOWN), recording, state)
+        one = image_after(mapping, Guess(found.angle + step, found.velocity, image.waits), recording, state)
+        two = image_after(mapping, Guess(found.angle, found.velocity + step, image.waits), recording, state)
         known = one.certain and one.impacts == image.impacts and one.brace_hits == image.brace_hits
         known = known and two.certain and two.impacts == image.impacts and two.brace_hits == image.brace_hits
         slopes = (
@@ -73,6 +75,49 @@ def curvature(mapping, found, columns, nothing):
         if known:
             break
     return Curvature(known, slopes[0], slopes[1])
+
+
+@njit(**INTERNAL)
+def curvature_of_returns(section, row, period, found):
+    """Estimate the second derivative of a return map from the last three returns of a motion near a fixed point.
+
+    A return from the deviation z differs from the linear map by D2P(z, z)/2. Its value in three directions gives all others
+    (interpolation of Lagrange in the sines of the angles between them). Unknown if two of the directions nearly coincide.
+    """
+    first, second = (
+        deviation_and_bend(section, row, period, found),
+        deviation_and_bend(section, row - period, period, found),
+    )
+    third = deviation_and_bend(section, row - 2 * period, period, found)
+    xx, xy, yy, least = (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), 1.0
+    for (here, value), (one, _), (two, _) in (
+        (first, second, third),
+        (second, third, first),
+        (third, first, second),
+    ):
+        apart = area(one, here), area(two, here)
+        least = min(least, abs(apart[0]))
+        weight = 1.0 / (apart[0] * apart[1])
+        fx, fy = weight * value[0], weight * value[1]
+        across = -0.5 * (one[0] * two[1] + one[1] * two[0])
+        xx = xx[0] + fx * one[1] * two[1], xx[1] + fy * one[1] * two[1]
+        xy = xy[0] + fx * across, xy[1] + fy * across
+        yy = yy[0] + fx * one[0] * two[0], yy[1] + fy * one[0] * two[0]
+    return Curvature(
+        least >= SPREAD, Tangent(xx[0], xx[1], xy[0], xy[1]), Tangent(xy[0], xy[1], yy[0], yy[1])
+    )
+
+
+@njit(**INTERNAL)
+def deviation_and_bend(section, row, period, found):
+    """Return the direction of the deviation one period before a row, and D2P in this direction from the return to the row."""
+    before, tangent = row - period, found.image.tangent
+    x, y = section[before, 0] - found.angle, section[before, 1] - found.velocity
+    to_x = section[row, 0] - found.angle - (tangent.a * x + tangent.c * y)
+    to_y = section[row, 1] - found.velocity - (tangent.b * x + tangent.d * y)
+    far = size(x, y)
+    twice = 2.0 / (far * far)
+    return (x / far, y / far), (twice * to_x, twice * to_y)
 
 
 @njit(**INTERNAL)
@@ -109,7 +154,7 @@ def component(vector, along, across):
 
 
 @njit(**INTERNAL)
-def excess_in_ball(bend, tangent, radius, x, y):
+def excess_in_ball(bend, tangent, radius, x, y, residual):
     """Return the second-order terms at (x, y) over their limit, in a norm in which the linear map shrinks.
 
     Below the limit, the second-order map takes a ball around the orbit into itself. No eigenvectors are needed, but both
@@ -126,16 +171,18 @@ def excess_in_ball(bend, tangent, radius, x, y):
     for first, second, twice in ((e1, e1, 1.0), (e1, e2, 2.0), (e2, e2, 1.0)):
         image = apply(bend, first, second)
         large += twice * length(norm, image[0], image[1]) ** 2
-    return 0.5 * math.sqrt(large) * length(norm, x, y) / (HALF_WAY * (1.0 - shrinks))
+    doubt = 2.0 * residual * (math.sqrt(norm[0]) + math.sqrt(norm[2])) / (1.0 - shrinks)
+    return 0.5 * math.sqrt(large) * (length(norm, x, y) + doubt) / (HALF_WAY * (1.0 - shrinks))
 
 
 @njit(**INTERNAL)
-def excess_of_real(bend, tangent, rho, sigma, x, y):
+def excess_of_real(bend, tangent, rho, sigma, x, y, residual):
     """Return the second-order terms at (x, y) over their limit, and the multiplier by which they shrink; real multipliers.
 
     One return is u' = rho u + q u^2 + a u s + b s^2. Let U = u + a u s/(rho (1 - sigma)) + b s^2/(rho - sigma^2).
     To second order U' = rho U + q U^2. The unstable orbit lies at U = (1 - rho)/q. On the other side of the orbit u may
-    have any size. For rho < 0 the term q u^2 is removed in the same way, and all terms must be small.
+    have any size. For rho < 0 the term q u^2 is removed in the same way, and all terms must be small. Next to a fold the
+    ``residual`` of the orbit may exceed (1 - rho)^2/(4 q). Then no orbit need exist, so it counts as well.
     """
     v, w = eigenvector(tangent, rho), eigenvector(tangent, sigma)
     u, s = component((x, y), v, w), component((x, y), w, v)
@@ -145,8 +192,9 @@ def excess_of_real(bend, tangent, rho, sigma, x, y):
     if rho < 0.0:
         bent = kicks + abs(q * u * u / (rho - rho * rho))
         return bent / (BENDING * (abs(u) + abs(s))), abs(rho)
-    towards = max(0.0, u if q > 0.0 else -u)
-    return abs(q) * (towards + kicks) / (HALF_WAY * (1.0 - rho)), (abs(sigma) if kicks > towards else rho)
+    towards, doubt = max(0.0, u if q > 0.0 else -u), 4.0 * residual / (abs(area(v, w)) * (1.0 - rho))
+    shrinks = abs(sigma) if kicks > towards else rho
+    return abs(q) * (towards + kicks + doubt) / (HALF_WAY * (1.0 - rho)), shrinks
 
 
 @njit(**INTERNAL)
@@ -198,18 +246,23 @@ def excess_at(mapping, found, section, row, columns, nothing):
         Terms over their limit: at most 1 if they cannot turn the motion away, infinite if they are unknown.
         Multiplier by which this shrinks per return, 0 if unknown.
     """
-    bend = curvature(mapping, found, columns, nothing)
-    if not bend.known:
-        return math.inf, 0.0
     x, y, tangent = section[row, 0] - found.angle, section[row, 1] - found.velocity, found.image.tangent
     real, imaginary, other, _ = multipliers(tangent)
     radius = size(real, imaginary)
-    in_ball = excess_in_ball(bend, tangent, radius, x, y)
+    if imaginary != 0.0:
+        bend = curvature_of_returns(section, row, mapping.cycles, found)
+        excess = excess_of_complex(bend, tangent, complex(real, imaginary), x, y)
+        if bend.known and excess <= CLEARLY_BELOW:
+            return excess, radius
+    bend = curvature(mapping, found, columns, nothing)
+    if not bend.known:
+        return math.inf, 0.0
+    in_ball = excess_in_ball(bend, tangent, radius, x, y, found.residual)
     if imaginary != 0.0:
         return min(in_ball, excess_of_complex(bend, tangent, complex(real, imaginary), x, y)), radius
     if 1.0 - abs(other) < DISTINCT * (1.0 - radius):
         return in_ball, radius
-    along, shrinks = excess_of_real(bend, tangent, real, other, x, y)
+    along, shrinks = excess_of_real(bend, tangent, real, other, x, y, found.residual)
     excess = min(in_ball, along)
     if excess <= 1.0 and not slow_part_shrinks(section, row, mapping.cycles, found, real, other):
         return math.inf, 0.0
