@@ -25,7 +25,7 @@ def excess(which, bend, tangent, first, second, x, y):
     if which == REAL:
         return approach.excess_of_real(bend, tangent, first, second, x, y, 0.0)[0]
     if which == COMPLEX:
-        return approach.excess_of_complex(bend, tangent, complex(first, second), x, y)
+        return approach.excess_of_complex(bend, tangent, first, second, x, y)
     return approach.excess_in_ball(bend, tangent, max(abs(first), abs(second)), x, y, 0.0)
 
 
