@@ -492,7 +492,6 @@ def test_a_unit_in_the_header_counts_if_it_is_the_only_one(make, header, size):
 @pytest.mark.parametrize(
     "header",
     [
-        ["acc (g) or acc (m/s2)"],
         ["a mass of 5 g"],
         ["velocity (cm/s)"],
         ["time acc"],
@@ -519,12 +518,20 @@ def test_a_unit_that_is_not_clear_must_be_given(make, header):
             ["time (s), velocity (cm/s)"],
             "file.x, line 1: acceleration in m/s², cm/s², mm/s², g or gal expected",
         ),
+        (["# time (s) velocity (cm/s)"], "expected; the header gives 'cm/s'"),
         (["s mg"], "expected; the header gives 'mg'"),
         (["time (ms), acceleration"], "file.x, line 1: times in s expected; the header gives 'ms'"),
     ],
 )
 def test_a_header_that_contradicts_the_unit_given_is_refused(make, header, expected):
     assert expected in refusal_of(make([*header, "0, 1", "0.5, 2"]), units="gal")
+
+
+def test_several_units_in_a_header_need_an_argument_and_a_warning(make):
+    path = make(["# acceleration (g)", "# units: m/s2", "0, 1", "0.5, 2"])
+    assert refusal_of(path) == "file.x: the header names the units g and m/s²; give one of them as units"
+    with pytest.warns(rk.InputWarning, match=r"^file.x: units='m/s²' is used; the header names g and m/s²$"):
+        assert rk.read_ground_motion(path, units="m/s2").pga == 2.0
 
 
 def test_the_unit_given_beats_one_that_prose_mentions(make):

@@ -11,8 +11,10 @@ from rocking.model import counted, shown
 from rocking.records.channel import Channel
 from rocking.records.text_file import MAX_SAMPLES, NUMBER, TextFile
 from rocking.records.units import (
+    IN_BRACKETS,
     OTHER_TIMES,
     SEPARATOR,
+    TIMES,
     header_units,
     is_line_of_units,
     is_other,
@@ -75,9 +77,11 @@ def _check_titles(file: TextFile, first: int, width: int) -> None:
     """Refuse columns whose titles or unit line state another quantity than acceleration, or times that are not in s."""
     for index in range(first):
         line = file.lines[index]
-        cells = titles(line)
-        if len(cells) != width or not (SEPARATOR.search(line) or is_line_of_units(line)):
-            continue  # words
+        cells = bracketed = IN_BRACKETS.findall(line)
+        if not (width > 1 and len(bracketed) == width and bracketed[0].strip().lower() in TIMES):
+            cells = titles(line)
+            if len(cells) != width or not (SEPARATOR.search(line) or is_line_of_units(line)):
+                continue  # words
         if is_other(cells[-1]):
             units = "m/s², cm/s², mm/s², g or gal"
             raise file.error(index, f"acceleration in {units} expected; the header gives {shown(cells[-1])}")

@@ -96,7 +96,7 @@ def read_ground_motion(
     -----
     InputWarning
         If the peak of the samples differs from the peak in the header: see `RecordFile.pga_agrees`. Also if the PGA is below 0.01
-        or above 50 m/s²: the unit is probably another. Also if words of the header mention another unit than `units`.
+        or above 50 m/s²: the unit is probably another. Also if the header names several units, or mentions another unit than `units`.
 
     See Also
     --------
@@ -211,12 +211,16 @@ def _motion(source: _Source, number: int, given: _Given) -> tuple[GroundMotion, 
     channel, several = source.channels[number - 1], len(source.channels) > 1
     place, doubts = _place(source, number), []
     stated = channel.unit
-    if given.unit and channel.named and given.unit not in channel.named:
-        names = " and ".join(sorted(channel.named))
-        way = "omit units, or correct the header"
-        if stated is None:
-            names, way = f"the units {names}, not {given.unit}", "give one of them as units"
-        raise RecordError(f"{place}: the header names {names}; {way}")
+    named = " and ".join(sorted(channel.named))
+    if len(channel.named) > 1 and given.unit not in channel.named:
+        rejected = f", not {given.unit}" if given.unit else ""
+        raise RecordError(
+            f"{place}: the header names the units {named}{rejected}; give one of them as units"
+        )
+    if len(channel.named) > 1:
+        doubts.append(f"units={given.unit!r} is used; the header names {named}")
+    elif given.unit and channel.named and given.unit not in channel.named:
+        raise RecordError(f"{place}: the header names {named}; omit units, or correct the header")
     if given.unit and channel.mentioned and not channel.named:
         stated = None
         if given.unit not in channel.mentioned:
