@@ -20,10 +20,16 @@ PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
 LONG_MOTIONS = {"periods": (0.2, 0.7), "amplitudes": (1.1, 1.4)}
 
 
-def march(cycles, amplitude, period, restitution):
+def march(cycles, amplitude, period, restitution, **more):
     """Simulate one block from rest and keep nothing."""
-    system = rk.System(rk.Harmonic(amplitude, period=period), restitution)
+    system = rk.System(rk.Harmonic(amplitude, period=period), restitution, **more)
     rk.simulate(system, cycles=cycles, record="none")
+
+
+def run_record(levels):
+    """Run one block under the record of the package at ``levels`` scales."""
+    block, record = rk.Block(height=2.0, width=0.5), rk.example_ground_motion()
+    rk.incremental_dynamic_analysis([record], block, np.linspace(1.0, 4.0, levels), executor=ONE_THREAD)
 
 
 def compute_map(points, restitution, periods=PERIODS, amplitudes=AMPLITUDES, **more):
@@ -36,6 +42,8 @@ CASES = {
     "one block (1,1)": partial(march, 1_000_000, 2.0, 1.0, 0.925),
     "one block (1,3)": partial(march, 2_500_000, 6.5, 0.4, 0.925),
     "one block, chaotic": partial(march, 500_000, 10.103037, 1.721328, 0.8),
+    "full block": partial(march, 30_000, 2.0, 1.0, 0.925, critical_angle=0.3),
+    "record": partial(run_record, 6_000),
     "lanes": partial(compute_map, 10, 1.0, **LONG_MOTIONS),
     "map, e = .925": partial(compute_map, 140, 0.925),
     "map, e = 1": partial(compute_map, 42, 1.0),

@@ -44,7 +44,7 @@ def rounded(text):
 
     lines = []
     for line in text.splitlines():
-        new = FLOAT.sub(replace, line.rstrip())
+        new = FLOAT.sub(replace, line.rstrip()).replace("≤ 0,", "≤ ~0,")
         lines.append(re.sub(r"(?<=\S) +", " ", new) if "~0" in new else new)
     return "\n".join(lines)
 

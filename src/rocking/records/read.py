@@ -214,9 +214,7 @@ def _motion(source: _Source, number: int, given: _Given) -> tuple[GroundMotion, 
     named = " and ".join(sorted(channel.named))
     if len(channel.named) > 1 and given.unit not in channel.named:
         rejected = f", not {given.unit}" if given.unit else ""
-        raise RecordError(
-            f"{place}: the header names the units {named}{rejected}; give one of them as units"
-        )
+        raise RecordError(f"{place}: the header names the units {named}{rejected}; give one of them as units")
     if len(channel.named) > 1:
         doubts.append(f"units={given.unit!r} is used; the header names {named}")
     elif given.unit and channel.named and given.unit not in channel.named:
