@@ -113,6 +113,22 @@ def test_a_fast_part_does_not_hide_that_the_slow_part_grows():
     assert not slow_part_shrinks(np.array(states), 3, Tangent(rho, 0.0, 0.0, sigma), rho, sigma)
 
 
+def test_terms_for_complex_multipliers_are_those_of_the_coordinates_that_remove_them():
+    """Computed with complex numbers: u' = λ u + f u² + g u ū + h ū² in the eigenvectors that NumPy finds."""
+    for _, _, jacobian, bend, state in maps(COMPLEX, 300, 9):
+        values, vectors = np.linalg.eig(jacobian)
+        value, (v, w) = values[0], vectors.T
+        f, g, h = (np.linalg.solve(vectors, bend @ y @ x)[0] for x, y in ((v, v), (v, w), (w, w)))
+        poles = value - value**2, value - abs(value) ** 2, value - np.conj(value) ** 2
+        terms = abs(0.5 * f / poles[0]) + abs(g / poles[1]) + abs(0.5 * h / poles[2])
+        expected = terms * abs(np.linalg.solve(vectors, state)[0]) / approach.BENDING
+        curvature = approach.Curvature(True, tangent_of(bend[:, :, 0]), tangent_of(bend[:, :, 1]))
+        found = excess(
+            COMPLEX, curvature, tangent_of(jacobian), float(value.real), abs(float(value.imag)), *state
+        )
+        assert found == pytest.approx(expected, rel=1e-9, abs=0.0)
+
+
 @njit(**KERNEL)
 def from_returns(section, tangent):
     image = MapImage(True, 0.0, 0.0, tangent, 2, 0, math.nan, (0.0, 0.0))
