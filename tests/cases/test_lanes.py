@@ -293,14 +293,22 @@ def test_orbit_is_found_from_distant_returns_in_lanes_as_alone(case):
 
 @pytest.mark.parametrize("case", BETWEEN, ids=lambda case: f"A={case[0]:.3g}, e={case[3]}, r={case[5]}")
 def test_what_differences_forget_is_told_alike_between_braces(case):
-    """Also when, after how many events of which kind, and how fast differences shrink."""
+    """Also when, after how many events of which kind, and how fast differences shrink.
+
+    The rate and the peak differ by no more than those of amplitudes within six units in the last place.
+    """
     amplitude, period, phase, restitution, brace, returned, cycles, longest = case
-    systems = np.array([[amplitude, math.tau / period, period, phase, restitution, brace, returned, 0.0]])
-    starts, go_on = np.zeros((1, 2)), np.zeros(1, np.int64)
-    alone, found = empty_results(1), batch.classify_batch(systems, starts, cycles, longest, go_on)
+    systems = np.tile(
+        [amplitude, math.tau / period, period, phase, restitution, brace, returned, 0.0], (13, 1)
+    )
+    systems[:, 0] += np.spacing(amplitude) * np.array([0, *range(-6, 0), *range(1, 7)])
+    starts, go_on = np.zeros((13, 2)), np.zeros(1, np.int64)
+    alone, found = empty_results(13), batch.classify_batch(systems[:1], starts[:1], cycles, longest, go_on)
     kind, memory = parameters_of_row(systems[0]), make_workspace(cycles, longest)
     batch.classify_batch_scalar(kind, systems, starts, cycles, longest, memory, alone, go_on)
     for name in ("kind", "ground", "period", "symmetric", "impacts", "brace_hits", "transient", "cycles"):
-        assert getattr(found, name) == getattr(alone, name), name
+        assert getattr(found, name) == getattr(alone, name)[0], name
     for name in ("exponent", "peak"):
-        assert getattr(found, name) == pytest.approx(getattr(alone, name), rel=1e-9), name
+        values = getattr(alone, name)
+        width = np.ptp(values) if np.isfinite(values).all() else 0.0
+        assert getattr(found, name) == pytest.approx(values[0], rel=1e-9, abs=width), name

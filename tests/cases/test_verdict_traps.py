@@ -254,11 +254,17 @@ def leaves_its_torus(system):
 
 
 def test_a_torus_that_touches_an_impact_is_left_by_rounding_alone():
-    """The start from rest is such a touch. Averages agree to 15 digits, until doubles pass the base at a depth of some 10⁻¹²."""
+    """The start from rest is such a touch. Averages agree to 15 digits, until doubles pass the base at a depth of some 10⁻¹².
+
+    Which doubles do so depends on the last digits of the amplitude.
+    """
     row = np.array([14.497357546670587, 0.0, 1.0411306291919962])
-    torus = rk.System(rk.Harmonic(row[0], period=row[2]), 1.0)
-    assert rk.classify(torus, max_cycles=30_000).kind == "quasi-periodic"
-    assert rk.simulate(torus, cycles=30_000, record="none").outcome == "overturned"
+    outcomes = set()
+    for ulps in range(-4, 5):
+        torus = rk.System(rk.Harmonic(row[0] + ulps * math.ulp(row[0]), period=row[2]), 1.0)
+        assert rk.classify(torus, max_cycles=30_000).kind == "quasi-periodic"
+        outcomes.add(str(rk.simulate(torus, cycles=30_000, record="none").outcome))
+    assert outcomes == {"overturned", "bounded"}
     assert not leaves_its_torus(row)
 
 

@@ -45,8 +45,11 @@ def check_against_classify(found, axes, fixed, max_cycles=200, max_period=64):
         # In chaos a rounding soon changes the peak too.
         if tolerance == 0.0 or verdict.kind != "undetermined":
             asked = {**values, **fixed}
-            asked["amplitude"] += 1e-13 if tolerance else 0.0
-            moved = abs(verdict_at(max_cycles, max_period, **asked).peak - verdict.peak)
+            peaks = [
+                verdict_at(max_cycles, max_period, **asked | {"amplitude": asked["amplitude"] + change}).peak
+                for change in ((-2e-13, -1e-13, 1e-13, 2e-13) if tolerance else ())
+            ]
+            moved = max((abs(peak - verdict.peak) for peak in peaks), default=0.0)
             assert at["peak"] == pytest.approx(verdict.peak, abs=moved, rel=tolerance)
         assert at["cycles"] == verdict.cycles
         assert at["transient"] == told(verdict.transient, -1)

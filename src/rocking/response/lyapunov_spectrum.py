@@ -205,10 +205,13 @@ def means_of(growths: np.ndarray, times: np.ndarray, rounding: float) -> list[Ba
 
 
 def _mean_of(growths: np.ndarray, times: np.ndarray, rounding: float) -> BatchMean:
-    """Mean of an exponent. If the batches agree within their rounding, as on a periodic orbit, that is the error."""
+    """Mean of an exponent. If the batches agree within their rounding, as on a periodic orbit, that is the error.
+
+    Each batch may be wrong by the rounding, so two of them may differ by twice as much.
+    """
     if not np.isfinite(growths).all():
         return BatchMean(-math.inf, 0.0, 1.0, bounded=False, batches=len(growths))
     mean = batch_mean(growths, times)
-    if mean.batches >= MIN_BATCHES and np.ptp(growths / times) <= rounding:
+    if mean.batches >= MIN_BATCHES and np.ptp(growths / times) <= 2.0 * rounding:
         return evolve(mean, error=rounding, correlation=1.0, bounded=True)
     return mean

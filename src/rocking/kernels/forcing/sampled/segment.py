@@ -171,7 +171,7 @@ def minimum(piece, length, end):
     begun, dw = 0.0, piece.dw
     rises = dw_end >= -4.0 * ROUNDING * (abs(dw) + abs(second))  # to rounding
     if dw >= 0.0:
-        if not (second < 0.0 < second_end and dw_end > 0.0):
+        if not (second < 0.0 < second_end and rises):
             return math.inf, 0.0
         if dw > 0.0:
             begun, second = first_zero(Piece(dw, second, piece.rate, 0.0), length, (dw_end, second_end))
