@@ -4,7 +4,6 @@
 KERNEL = dict(
     nogil=True,
     error_model="numpy",
-    fastmath={"contract", "nsz"},
     no_cfunc_wrapper=True,
     forceinline=False,
     _nrt=False,
@@ -17,15 +16,3 @@ INTERNAL_INLINE = dict(INTERNAL, forceinline=True)
 # The compiler optimises a callee again in each caller. A short kernel between a caller and the march is
 # inlined as syntax instead, before that step.
 AST_INLINE = dict(INTERNAL, inline="always")
-# Kernels for SIMD code. The compiler may not choose which products it fuses with a sum, so that results
-# depend neither on the width of the vectors nor on other compiled code. Fused products are written
-# explicitly.
-SIMD = dict(
-    nogil=True,
-    error_model="numpy",
-    fastmath={"nsz"},
-    no_cfunc_wrapper=True,
-    no_cpython_wrapper=True,
-    _nrt=False,
-)
-SIMD_INLINE = dict(SIMD, forceinline=True)

@@ -2,7 +2,7 @@
 
 import math
 
-from rocking.kernels.compile_options import INTERNAL_INLINE, SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing import contract
 from rocking.kernels.forcing.arc import Transfer
@@ -11,7 +11,7 @@ from rocking.kernels.forcing.settling import settling_time
 from rocking.kernels.numerics.elementary import hyperbolic
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def hyperbolic_transfer(sinh, versinh):
     """Return the ``Transfer`` over a time with this hyperbolic sine and cosine less 1."""
     cosh = 1.0 + versinh

@@ -7,7 +7,7 @@ Undecided cases are left to the functions for one block.
 
 import math
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.enclosure import grazes, stays_between
 from rocking.kernels.forcing.harmonic.fast_path import REACH
@@ -22,7 +22,7 @@ MAX_TRIES, ROUNDS = 8, 2
 NEAR = 1e-3
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def parabola(u, v, second, brace_angle):
     """Guess the next event by the parabola or, against the acceleration, by the tangent.
 
@@ -46,7 +46,7 @@ def parabola(u, v, second, brace_angle):
     return falls == turns, choose(turns, against, ahead)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def coefficients(s, i, u, c, at_brace):
     """Return value and first eight derivatives, at the last jet, of the function that vanishes at the event.
 
@@ -70,7 +70,7 @@ def coefficients(s, i, u, c, at_brace):
     )
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def predict_event(s, i):
     """Write the next trial time of lane i: the event that the series predicts or, if there is none, a later time."""
     u, v, aims = s.knot_angle[i], s.knot_rate[i], s.stage[i] == BRACKET
@@ -92,7 +92,7 @@ def predict_event(s, i):
     s.stage[i] = choose(aims, choose(certain, REFINE, EXTEND), s.stage[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def correct_event(s, i):
     """Step from the trial time of lane i to the event or towards it, or expand the series there if it is too far."""
     t, angle, brace_angle, at_brace = s.time[i], s.angle[i], s.brace_angle[i], s.at_brace[i] > 0.0
@@ -128,7 +128,7 @@ def correct_event(s, i):
     choose_trial(s, i, (u, v, cosine, sine), arrived, free, nears, t + y * within_a_factor_of_two(factor))
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def choose_trial(s, i, there, arrived, free, nears, ahead):
     """Choose the next stage and trial time of lane i from its state ``there``, at the last trial time.
 

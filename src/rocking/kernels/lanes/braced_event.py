@@ -1,6 +1,6 @@
 """Requests before events between braces, and the events themselves: eq. (2) and the impact on a brace."""
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.lanes.impact import next_forcing_term, propagate_tangent, set_request, turn_clock
 from rocking.kernels.lanes.state import AT_EVENT, BRACKET, CHECK_ZENO, NEW_ARC, NO_REQUEST, UPDATE_PEAK
@@ -9,7 +9,7 @@ from rocking.kernels.march.tangent import brace_gain, impact_gain
 from rocking.kernels.numerics.simd import choose
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def request_before_event(s, i):
     """Write the request of lane i before its event, and return whether there is one."""
     at_brace, exceeds = s.at_brace[i] > 0.0, s.exceeds[i] > 0.0
@@ -20,7 +20,7 @@ def request_before_event(s, i):
     return set_request(s, i, request, returned)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def carry_through_event(s, i):
     """Propagate the tangent vector in lane i through its event."""
     hit, r, f = s.at_brace[i] > 0.0, s.brace_restitution[i], next_forcing_term(s, i)
@@ -28,7 +28,7 @@ def carry_through_event(s, i):
     propagate_tangent(s, i, choose(hit, -r, s.restitution[i]), choose(hit, pressed, pulled) / s.speed[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def apply_event(s, i):
     """Apply the event in lane i if it has arrived, eq. (2) or a brace impact, and begin the next arc."""
     turn_clock(s, i)

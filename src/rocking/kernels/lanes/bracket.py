@@ -6,7 +6,7 @@ e^t + c- e^-t + 1 + beta cos eta needs no elementary function. The proof is that
 
 from typing import NamedTuple
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.arc import MAX_ARC_TIME
 from rocking.kernels.forcing.harmonic.bracket import MARGIN, may_dip
@@ -27,7 +27,7 @@ class ConvexInterval(NamedTuple):
     doubtful: bool  # it contains zeros only if u has a minimum below zero inside
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def convex_interval(s, i):
     """Return the ``ConvexInterval`` of lane i that begins at ``end``."""
     displacement, forced_velocity = s.sign_change_displacement[i], s.sign_change_velocity[i]
@@ -49,7 +49,7 @@ def convex_interval(s, i):
     return ConvexInterval(u, u_half, u_right, error, error_right, passed & (doubt == False), passed & doubt)  # noqa: E712
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def turn_forcing(s, i, turns):
     """Move ``end`` of lane i forward by one forcing period, if ``turns``."""
     end, z, per_z = s.end[i], s.z[i], s.per_z[i]
@@ -58,7 +58,7 @@ def turn_forcing(s, i, turns):
     s.per_z[i] = choose(turns, per_z * s.turn_decay[i], per_z)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def skip_clear_period(s, i):
     """Advance the search by one forcing period, if the next sign intervals certainly contain no zero."""
     passed = convex_interval(s, i).passed & (s.stage[i] == BRACKET)
@@ -67,7 +67,7 @@ def skip_clear_period(s, i):
     turn_forcing(s, i, passed)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def walk(s, i):
     """Pass the next convex sign interval and the concave one before it, or bracket the zero in one of them.
 

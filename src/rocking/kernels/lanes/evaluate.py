@@ -1,13 +1,13 @@
 """Evaluation of the arc of each lane at one time: elementary functions, u and its derivatives, small steps."""
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose, circular, hyperbolic
 from rocking.kernels.numerics.taylor import I2, I3, I4
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def derivatives(s, i, there):
     """Return u and its first six derivatives at an instant (u, u', cos eta, sin eta) in lane i, from u'' = u + f."""
     u, v, cosine, sine = there
@@ -18,7 +18,7 @@ def derivatives(s, i, there):
     return u, v, c2, c3, c4, c5, fma(-square, ddf, c4)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def instant_of(s, i, above):
     """Evaluate the arc of lane i at its trial time, eq. (5); u0 = 1 + ``above``.
 
@@ -50,19 +50,19 @@ def instant_of(s, i, above):
     )
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def evaluate_hyperbolic(s, i):
     """Evaluate the hyperbolic functions of the trial time of lane i."""
     s.sinh[i], s.versinh[i], s.excess[i], s.higher[i] = hyperbolic(s.time[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def evaluate_circular(s, i):
     """Evaluate the circular functions of the trial time of lane i."""
     s.sin_x[i], s.versine[i], s.lag[i], s.deficit[i] = circular(s.frequency[i], s.time[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def set_next(s, i, x, cosine, sine):
     """Write the forcing and the hyperbolic functions a small time x after the trial time.
 

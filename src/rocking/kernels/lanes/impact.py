@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.extrema import may_rise_above
 from rocking.kernels.forcing.slender import hyperbolic_transfer
@@ -33,7 +33,7 @@ from rocking.kernels.numerics.simd import ROUGHLY, both_exponentials, choose, lo
 CREST_CERTAIN = -1e-5
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def set_request(s, i, request, returned):
     """Set the service request of lane i before its event; the condition with the highest priority wins.
 
@@ -49,7 +49,7 @@ def set_request(s, i, request, returned):
     return request != NO_REQUEST
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def request_before_impact(s, i):
     """Write the request of lane i before its impact, and return whether there is one."""
     returned = s.restitution[i] * s.speed[i]
@@ -58,7 +58,7 @@ def request_before_impact(s, i):
     return set_request(s, i, request, returned)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def may_settle(s, i, returned):
     """Return whether the impact in lane i may begin chattering that ends in rest.
 
@@ -70,13 +70,13 @@ def may_settle(s, i, returned):
     return (press > 0.0) & (moved < press * press * (1.0 - s.restitution[i]))
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def next_forcing_term(s, i):
     """Return the forcing term f at the event of lane i: ``harmonic.forcing_term``."""
     return fma(-s.amplitude[i], s.next_cosine[i], -1.0)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def propagate_tangent(s, i, factor, shear):
     """Propagate the tangent vector in lane i along the arc and through its event, if that has arrived.
 
@@ -96,7 +96,7 @@ def propagate_tangent(s, i, factor, shear):
     s.events[i] = choose(arrived, s.events[i] + 1.0, s.events[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def turn_clock(s, i):
     """Write the cycle of the event in lane i and the time within it, if it has arrived."""
     start, cycle, arrived = s.start[i], s.cycle[i], s.stage[i] == AT_EVENT
@@ -105,14 +105,14 @@ def turn_clock(s, i):
     s.cycle[i] = choose(arrived, cycle + turns, cycle)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def carry_through_impact(s, i):
     """Propagate the tangent vector in lane i through its impact."""
     gained = impact_gain(s.restitution[i], 1.0, next_forcing_term(s, i), -1.0)
     propagate_tangent(s, i, s.restitution[i], gained / s.speed[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def apply_impact(s, i):
     """Apply the impact in lane i, eq. (2), if it has arrived."""
     turn_clock(s, i)
@@ -124,7 +124,7 @@ def apply_impact(s, i):
     s.sine[i] = choose(arrived, -s.next_sine[i], s.sine[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def begin_exponentials(s, i):
     """Write c+ and c- of an arc that begins, and bounds of the time in which u is positive.
 
@@ -147,7 +147,7 @@ def begin_exponentials(s, i):
     s.sign_change[i] = fma(-np.floor(to_sign_change * s.per_period[i]), s.period[i], to_sign_change)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def crest_may_exceed(s, i):
     """Return whether u may exceed the peak of lane i on the arc that begins."""
     away = fma(-0.5, s.inside[i] + s.twice[i], s.sign_change[i])
@@ -156,7 +156,7 @@ def crest_may_exceed(s, i):
     return may_rise_above(s.peak[i], s.deep[i], away, s.frequency_square[i], s.response[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def begin_walk(s, i):
     """Write the start of the search along an arc that begins.
 
@@ -174,7 +174,7 @@ def begin_walk(s, i):
     s.end[i] = choose(begins, sign_change, s.end[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def begin_bracket(s, i):
     """Write e^+-t at the start of the search along an arc that begins, and its stage."""
     begins = s.stage[i] >= NEW_ARC

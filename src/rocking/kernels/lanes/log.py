@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
 from rocking.kernels.forcing.harmonic.acceleration import clock
@@ -15,7 +15,7 @@ from rocking.kernels.numerics.simd import choose
 AHEAD = 8
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def mark_pending(s, i, most):
     """Compute the log slot of a lane (-1: none), the squared impact speed, and whether ``log_arc`` is due.
 

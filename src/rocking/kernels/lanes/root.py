@@ -2,7 +2,7 @@
 
 import math
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.bracket import MARGIN
 from rocking.kernels.lanes.evaluate import derivatives, instant_of, set_next
@@ -25,7 +25,7 @@ MAX_TRIES = 12
 NEAR = 1e-3
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def taylor(c, x):
     """Evaluate a Taylor series with coefficients c a time x later, by three Horner schemes.
 
@@ -52,7 +52,7 @@ def taylor(c, x):
     return fma(x, w, c0), dw, bend
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def middle_of_half(s, i):
     """Evaluate the arc in the middle of that half of its sign interval which contains the zero.
 
@@ -80,7 +80,7 @@ def middle_of_half(s, i):
     return middle + choose(late, quarter, -quarter), u, v, cosine, sine, quarter
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def initial_guess(s, i):
     """Guess the zero by a parabola about the middle of half its sign interval, or about the start of a short arc."""
     about, u, v, cosine, sine, quarter = middle_of_half(s, i)
@@ -104,7 +104,7 @@ def initial_guess(s, i):
     s.guess_offset[i] = choose(near, x, choose(u > 0.0, 0.5, -0.5) * quarter)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def guess(s, i):
     """Find the zero to about six digits: two steps on the Taylor series about the point of ``initial_guess``."""
     low, high, x, guessing = s.low[i], s.high[i], s.guess_offset[i], s.stage[i] == GUESS
@@ -122,13 +122,13 @@ def guess(s, i):
     s.stage[i] = choose(guessing, REFINE, s.stage[i])
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def there(s, i):
     """Return (u, u', cos eta, sin eta) of lane i at its last evaluation."""
     return s.angle_there[i], s.rate_there[i], s.cosine_there[i], s.sine_there[i]
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def evaluate_trial(s, i):
     """Evaluate the arc of lane i, which starts at the base, at its trial time."""
     u, v, cosine, sine = instant_of(s, i, -1.0)
@@ -138,7 +138,7 @@ def evaluate_trial(s, i):
     s.sine_there[i] = sine
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def positive_by_tangent(u, fall, t, low, high):
     """Return whether u is certainly positive on [low, high], in a convex sign interval, from one point of it.
 
@@ -150,7 +150,7 @@ def positive_by_tangent(u, fall, t, low, high):
     return u - choose(fall > 0.0, fall * (t - low), down) > MARGIN
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def step(s, i):
     """Step from the trial time to the zero or towards it, or to the minimum that proves that there is none."""
     u, v, cosine, sine = there(s, i)
@@ -171,7 +171,7 @@ def step(s, i):
     narrow(s, i, arrived, choose(diving, -(u + v) * per, y * within_a_factor_of_two(factor)))
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def narrow(s, i, arrived, ahead):
     """Narrow the interval of the zero or of the minimum; choose the next stage.
 

@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.bracket import MARGIN
 from rocking.kernels.numerics.simd import SHORT_ANGLE, SHORT_TIME
@@ -93,13 +93,13 @@ LOG_ROWS = 385
 LARGE = 2.0**64
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def log_is_full(s, i):
     """Return whether the log of a lane must be read before another arc is written; never if no log is kept."""
     return s.log_on[i] * (s.events[i] - s.counted[i]) > LOG_ROWS - 3.0
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def set_system(s, i, p):
     """Write the parameters of the system of lane i."""
     s.amplitude[i] = p.forcing.amplitude
@@ -139,7 +139,7 @@ def set_system(s, i, p):
     s.decay_out[i] = 1.0 / s.grow_out[i]
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def within_a_cycle(p, eta):
     """Return the time within the cycle at which the forcing phase reaches ``eta``."""
     return (eta - 2.0 * math.pi * math.floor(eta / (2.0 * math.pi))) * p.forcing.per_frequency

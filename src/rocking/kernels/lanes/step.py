@@ -1,6 +1,6 @@
 """Pass over all lanes: every lane executes its next stage. The compiler vectorises each short loop."""
 
-from rocking.kernels.compile_options import SIMD
+from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 from rocking.kernels.lanes.braced_arc import correct_event, predict_event
 from rocking.kernels.lanes.braced_event import apply_event, carry_through_event, request_before_event
@@ -18,7 +18,7 @@ from rocking.kernels.lanes.root import evaluate_trial, guess, initial_guess, ste
 from rocking.kernels.lanes.state import LANES
 
 
-@njit(**SIMD)
+@njit(**INTERNAL)
 def apply_impacts(s):
     """Apply the impacts of all lanes that have arrived, and begin their next arcs."""
     for i in range(LANES):
@@ -33,7 +33,7 @@ def apply_impacts(s):
         begin_bracket(s, i)
 
 
-@njit(**SIMD)
+@njit(**INTERNAL)
 def advance(s):
     """Advance all lanes, to their impacts if those are near enough; return whether any makes a request."""
     for i in range(LANES):
@@ -58,7 +58,7 @@ def advance(s):
     return requested
 
 
-@njit(**SIMD)
+@njit(**INTERNAL)
 def apply_events(s):
     """Apply the events of all lanes that have arrived, between braces, and begin their next arcs."""
     for i in range(LANES):
@@ -67,7 +67,7 @@ def apply_events(s):
         apply_event(s, i)
 
 
-@njit(**SIMD)
+@njit(**INTERNAL)
 def advance_between(s):
     """Advance all lanes between braces; return whether any makes a request."""
     for i in range(LANES):

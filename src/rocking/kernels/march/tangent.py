@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE, SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAVE, NONE
 from rocking.kernels.forcing.contract import (
@@ -142,7 +142,7 @@ def normalised(tangent, growth):
     return Tangent(tangent.a / size, tangent.b / size, tangent.c / size, tangent.d / size)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def carry_along(difference, moved):
     """Propagate (delta u, delta u') along an arc with a ``Transfer``."""
     a, b = difference
@@ -150,14 +150,14 @@ def carry_along(difference, moved):
     return angle, fma(moved.velocity_by_angle, a, moved.velocity_by_velocity * b)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def carry_through(difference, factor, shear, gain):
     """Propagate (delta u, delta u') through an event by its saltation matrix [[factor, 0], [shear, gain]]."""
     a, b = difference
     return factor * a, fma(shear, a, gain * b)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def impact_gain(gain, restoring, f, turned):
     """Return the shear of an impact times the speed: the change of Theta'' beyond that by the ``gain`` of the velocity.
 
@@ -167,7 +167,7 @@ def impact_gain(gain, restoring, f, turned):
     return fma(gain - 1.0, restoring + f, restoring * (turned - gain))
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def brace_gain(brace_restitution, bend):
     """Return the shear of a brace impact times the speed; ``bend`` is u'' there."""
     return (1.0 + brace_restitution) * bend

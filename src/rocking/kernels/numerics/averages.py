@@ -2,7 +2,7 @@
 
 import math
 
-from rocking.kernels.compile_options import INTERNAL, KERNEL, SIMD
+from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.numerics.simd import both_exponentials
@@ -12,7 +12,7 @@ from rocking.kernels.signature import Floats1
 UNSEEN = 700.0
 
 
-@njit(**SIMD)
+@njit(**INTERNAL)
 def bumps(count, weights):
     """Write the weights of the first half of ``count`` values.
 

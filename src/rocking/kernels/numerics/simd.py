@@ -10,7 +10,7 @@ import math
 import numpy as np
 from llvmlite import ir
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import intrinsic, njit
 from rocking.kernels.numerics.elementary import HALF_PI, TWO_OVER_PI, fma
 
@@ -104,21 +104,21 @@ def from_bits(typingctx, n):
     return types.float64(types.int64), generate
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def five_terms(q, c):
     """Return the sum of c[k] q**k for 5 coefficients, in two independent chains."""
     q2 = q * q
     return fma(fma(c[3], q2, c[1]), q, fma(fma(c[4], q2, c[2]), q2, c[0]))
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def six_terms(q, c):
     """Return the sum of c[k] q**k for 6 coefficients, in two independent chains."""
     q2 = q * q
     return fma(fma(fma(c[5], q2, c[3]), q2, c[1]), q, fma(fma(c[4], q2, c[2]), q2, c[0]))
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def reduced_exponential(t, one):
     """Reduce t = r + k ln 2 with abs(r) <= ln 2 / 2, and evaluate the hyperbolic functions of r.
 
@@ -140,14 +140,14 @@ def reduced_exponential(t, one):
     return r + excess, fma(0.5, q, higher), excess, higher, k, from_bits(one + power), from_bits(one - power)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def both_exponentials(t):
     """Return e^t and e^-t for abs(t) < 700, from the even and odd parts of one reduced argument."""
     odd, even, _, _, _, up, down = reduced_exponential(t, ONE)
     return (1.0 + (even + odd)) * up, (1.0 + (even - odd)) * down
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def hyperbolic(t):
     """Evaluate the hyperbolic functions of t >= 0 without a branch.
 
@@ -163,7 +163,7 @@ def hyperbolic(t):
     return choose(short, odd, sinh), choose(short, even, versinh), choose(short, excess, sinh - t), higher
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def circular(rate, t):
     """Evaluate the circular functions of x = rate * t, 0 <= x up to 10**4, without a branch.
 
@@ -196,7 +196,7 @@ def circular(rate, t):
     return sine, choose(short, versine, 1.0 - cosine), choose(short, excess, x - sine), higher
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def parts(x):
     """Split a normal x > 0 into m * 2**k.
 
@@ -211,7 +211,7 @@ def parts(x):
     return from_bits(bits - (exponent << EXPONENT)), from_bits(exponent + INTEGER) - ROUNDER
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def logarithms_of_ratios(a, b, c, d):
     """Return ln(a/b) and ln(c/d) of normal numbers above 0, to 5.4e-6 (``ROUGHLY``).
 
@@ -224,7 +224,7 @@ def logarithms_of_ratios(a, b, c, d):
     return logarithm(i - j, (a - b) * (c + d) * per), logarithm(k - n, (c - d) * (a + b) * per)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def logarithm(power, s):
     """Return power ln 2 + 2 artanh s for |s| <= 1/3."""
     q = s * s

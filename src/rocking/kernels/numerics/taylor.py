@@ -2,7 +2,7 @@
 
 import math
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
@@ -10,7 +10,7 @@ from rocking.kernels.numerics.simd import choose
 I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def reversion(y, second, third, fourth, per):
     """Return the factor that extends a Newton step y to the nearest zero of w's Taylor series, to fifth order.
 
@@ -20,7 +20,7 @@ def reversion(y, second, third, fourth, per):
     return fma(y, fma(y, fma(y, fma(5.0 * a, fma(-a, a, b), -c), fma(2.0 * a, a, -b)), -a), 1.0)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def within_a_factor_of_two(factor):
     """Return the factor if it lies between 1/2 and 2, else 1.
 
@@ -29,7 +29,7 @@ def within_a_factor_of_two(factor):
     return choose((factor > 0.5) & (factor < 2.0), factor, 1.0)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def series(c, x):
     """Return w and its first four derivatives a time x later, from its first eight derivatives at present.
 
@@ -49,7 +49,7 @@ def series(c, x):
     return w0, w1, w2, w3, w4
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def velocity_after(derivatives, x):
     """Return w' a small time x later from (w', ..., the fifth derivative) at present."""
     v, second, third, fourth, fifth = derivatives

@@ -16,7 +16,7 @@ from rocking.model import Outcome, PiecewiseLinear
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.motion_spec import Runs
 
-METHOD = 6
+METHOD = 7
 """Version of the method; a change of the results increases it."""
 OUTCOMES = tuple(Outcome)
 UNDECIDED, CERTIFIED, NOT_ASSESSED = range(3)

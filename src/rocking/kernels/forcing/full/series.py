@@ -39,8 +39,9 @@ def chain(terms: list[Term]) -> str:
 def total(terms: list[Term]) -> str:
     """Return the source of a sum of products: first the terms that are known first, in two parts, and the last one at the end."""
     *early, last = sorted(terms, key=lambda term: term.known)
-    halves = [chain(half) for half in (early[0::2], early[1::2]) if half]
-    return f"fma({last.one}, {last.other}, {' + '.join(halves)})" if halves else chain([last])
+    if len(early) < 3:
+        return chain([*early, last])
+    return f"fma({last.one}, {last.other}, {chain(early[0::2])} + {chain(early[1::2])})"
 
 
 def lines_of_block(later: Callable[[str, int], list[Term]], order: int) -> list[str]:
@@ -176,7 +177,7 @@ def bend_lines(first: int) -> list[str]:
     for k in range(ORDER, first + 1, -1):
         part = f"p{(k - first) % 2}"
         lines.append(f"{part} = fma({part}, s, {float((k - first) * (k - first - 1))!r} * abs({names[k]}))")
-    return [*lines, "return p0 + p1 * h"]
+    return [*lines, "return fma(p1, h, p0)"]
 
 
 def bend(first: int) -> Any:
@@ -220,7 +221,7 @@ def size_lines(order: int) -> list[str]:
     for k in range(order, 1, -1):
         y, z, w = f"y{k % 2}", f"z{k % 2}", f"abs(w[{k - 2}])"
         lines += [f"{y} = fma({y}, s, {w})", f"{z} = fma({z}, s, {float(k * (k - 1))!r} * {w})"]
-    return [*lines, "return (abs(b) + y0 * r + y1 * s) * r, z0 + z1 * r"]
+    return [*lines, "return fma(y1, s, fma(y0, r, abs(b))) * r, fma(z1, r, z0)"]
 
 
 def sizes_up_to(name: str, order: int) -> Any:

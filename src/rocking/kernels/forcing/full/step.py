@@ -30,7 +30,7 @@ from rocking.kernels.forcing.full.series import (
     short_sizes,
     sizes,
 )
-from rocking.kernels.numerics.elementary import exponential_bound, sine_and_cosine
+from rocking.kernels.numerics.elementary import exponential_bound, fma, sine_and_cosine
 from rocking.kernels.numerics.estimates import rough_exp2, rough_log2
 
 # With it most bounds hold at once.
@@ -170,7 +170,7 @@ def state_in(step, t):
         slope, bend = short_divided_1(step.angle, step.velocity, step.series, t)
     else:
         slope, bend = divided_1(step.angle, step.velocity, step.series, t)
-    return slope * t, slope + bend * t
+    return slope * t, fma(bend, t, slope)
 
 
 @njit(**INTERNAL_INLINE)

@@ -70,7 +70,7 @@ def forcing_at(p, side, time, angle):
 @njit(**INTERNAL_INLINE)
 def forcing_term(p, cosine):
     """Return f = u'' - u = -1 - A cos eta on one side of the base, eq. (4)."""
-    return -1.0 - p.forcing.amplitude * cosine
+    return fma(-p.forcing.amplitude, cosine, -1.0)
 
 
 @njit(**INTERNAL_INLINE)
@@ -87,11 +87,11 @@ def forced_step(p, t, sinh, versinh, excess, higher):
     """Return the ``ForcedStep`` of a time t."""
     sin_x, versine, lag, deficit = circular(p.forcing.frequency, t)
     in_phase = versinh + versine
-    quadrature = p.forcing.frequency * excess + lag
+    quadrature = fma(p.forcing.frequency, excess, lag)
     near = p.forcing.frequency * t < SHORT
-    displacement, forced_velocity = in_phase, sinh + p.forcing.frequency * sin_x
+    displacement, forced_velocity = in_phase, fma(p.forcing.frequency, sin_x, sinh)
     if near:
-        displacement = -(p.forcing.frequency * p.forcing.frequency * higher + deficit)
+        displacement = -fma(p.forcing.frequency * p.forcing.frequency, higher, deficit)
         forced_velocity = -p.forcing.frequency * quadrature
     return ForcedStep(near, sin_x, versine, in_phase, quadrature, displacement, forced_velocity)
 
@@ -114,14 +114,14 @@ def forced_response(p, cosine, sine, above, acceleration, forced_step):
         cos eta and sin eta at the end.
     """
     near, sin_x, versine, in_phase, quadrature, displacement, forced_velocity = forced_step
-    displaced = p.forcing.response * (sine * quadrature - cosine * displacement)
-    moved = p.forcing.response * (p.forcing.frequency * sine * in_phase - cosine * forced_velocity)
+    displaced = p.forcing.response * fma(sine, quadrature, -cosine * displacement)
+    moved = p.forcing.response * fma(p.forcing.frequency * sine, in_phase, -cosine * forced_velocity)
     return (
         acceleration if near else above,
         displaced,
         moved,
-        cosine - (cosine * versine + sine * sin_x),
-        sine - (sine * versine - cosine * sin_x),
+        cosine - fma(cosine, versine, sine * sin_x),
+        sine - fma(sine, versine, -cosine * sin_x),
     )
 
 

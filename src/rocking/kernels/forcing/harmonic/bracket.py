@@ -8,7 +8,7 @@ wide margin, it is UNSURE and ``first_zero`` decides.
 import math
 from typing import NamedTuple
 
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.acceleration import first_sign_change, forcing_rates, forcing_term
 from rocking.kernels.forcing.harmonic.solution import exponentials, propagate, propagator_of
@@ -94,7 +94,7 @@ def positive_throughout(here, doubt):
     return here.w - abs(here.dw) > doubt
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def may_dip(w, dw, w_right, dw_right, tanh):
     """Return whether w, positive at both ends of a convex part of an arc, may reach zero inside.
 

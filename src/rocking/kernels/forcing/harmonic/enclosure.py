@@ -1,19 +1,19 @@
 """Proofs from the ends of an arc, for one block and for lanes: no event between them, no grazing arrival."""
 
-from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.bracket import MARGIN
 from rocking.kernels.numerics.elementary import fma
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def grazes(amplitude, start_angle, start_velocity, t, velocity):
     """Return whether an arc arrives after a time t so slowly that rounding decides whether it arrives at all."""
     most = amplitude + 1.0
     return velocity * velocity <= MARGIN * most * fma(t, fma(t, most, abs(start_velocity)), start_angle)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def outweighs(first, last, off):
     """Return whether the inner Bernstein terms of a cubic exceed its error bound everywhere between the ends.
 
@@ -23,7 +23,7 @@ def outweighs(first, last, off):
     return (least > 0.0) & (first + last + 2.0 * least > off)
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def stays_between(system, t, first, last):
     """Return whether an arc certainly meets neither base nor brace within a time t, from (u, u') at its ends.
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE, SIMD_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.forcing.arc import CROSSING, LATER, within_reach
@@ -71,7 +71,7 @@ def may_exceed(p, arc, coming, peak):
     )
 
 
-@njit(**SIMD_INLINE)
+@njit(**INTERNAL_INLINE)
 def may_rise_above(peak, m, away, frequency_square, response):
     """Return whether 1 - m cosh(t - middle) + beta cos eta may exceed ``peak``.
 

@@ -30,6 +30,7 @@ from rocking.kernels.forcing.harmonic.bracket import (
 from rocking.kernels.forcing.harmonic.enclosure import stays_between
 from rocking.kernels.forcing.harmonic.first_zero import corrected_step, step_to_zero
 from rocking.kernels.forcing.harmonic.solution import propagate, propagator_of
+from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.taylor import series, velocity_after
 
 TRIES = 6
@@ -57,17 +58,18 @@ def taylor_step(p, now, step):
     second = now.angle + f
     third = now.velocity + df
     fourth = second + ddf
-    fifth = third - p.forcing.frequency * p.forcing.frequency * df
+    fifth = fma(-p.forcing.frequency * p.forcing.frequency, df, third)
     velocity = velocity_after((now.velocity, second, third, fourth, fifth), step)
     x = p.forcing.frequency * step
-    sin_x = x * (1.0 - x * x * (1.0 / 6.0 - x * x * (1.0 / 120.0)))
-    versine = x * x * (0.5 - x * x * (1.0 / 24.0))
-    cosine = now.drive.cosine - (now.drive.cosine * versine + now.drive.sine * sin_x)
-    sine = now.drive.sine - (now.drive.sine * versine - now.drive.cosine * sin_x)
-    h = step * (1.0 + step * step * (1.0 / 6.0))
-    v = step * step * (0.5 + step * step * (1.0 / 24.0))
-    sinh = now.sinh + (now.sinh * v + h + now.versinh * h)
-    versinh = now.versinh + (now.versinh * v + v + now.sinh * h)
+    q, z = x * x, step * step
+    sin_x = x * fma(-q, fma(-q, 1.0 / 120.0, 1.0 / 6.0), 1.0)
+    versine = q * fma(-q, 1.0 / 24.0, 0.5)
+    cosine = now.drive.cosine - fma(now.drive.cosine, versine, now.drive.sine * sin_x)
+    sine = now.drive.sine - fma(now.drive.sine, versine, -now.drive.cosine * sin_x)
+    h = step * fma(z, 1.0 / 6.0, 1.0)
+    v = z * fma(z, 1.0 / 24.0, 0.5)
+    sinh = now.sinh + fma(now.sinh, v, fma(now.versinh, h, h))
+    versinh = now.versinh + fma(now.versinh, v, fma(now.sinh, h, v))
     return Instant(0.0, 0.0, velocity, HarmonicDrive(cosine, sine), sinh, versinh)
 
 
@@ -87,7 +89,7 @@ def close(p, now):
 def parabola_step(now):
     """Return a step towards a more distant zero of w: to the zero of the parabola, or infinity if there is none."""
     fall = now.w + now.f
-    under = now.dw * now.dw - 2.0 * now.w * fall
+    under = fma(now.dw, now.dw, -2.0 * now.w * fall)
     if fall < 0.0 and under > 0.0:
         return (now.dw + math.sqrt(under)) / -fall
     return -now.w / now.dw if now.dw < 0.0 else math.inf
@@ -115,9 +117,9 @@ def polished(p, steady, now, rough):
     df, ddf = now.df, turned(p, steady, now)
     c0, c1 = now.w, now.dw
     c2, c3 = c0 + now.f, c1 + df
-    c4, c5 = c2 + ddf, c3 + square * df
-    c6, c7 = c4 + square * ddf, c5 + square * square * df
-    c8 = c6 + square * square * ddf
+    c4, c5 = c2 + ddf, fma(square, df, c3)
+    c6, c7 = fma(square, ddf, c4), fma(square * square, df, c5)
+    c8 = fma(square * square, ddf, c6)
     c, s = (c0, c1, c2, c3, c4, c5, c6, c7, c8), rough
     for _ in range(ROUNDS):
         w0, w1, w2, w3, w4 = series(c, s)

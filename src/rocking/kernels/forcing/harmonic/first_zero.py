@@ -105,7 +105,6 @@ def corrected_step(w, dw, forcing):
 def step_to_zero(w, dw, forcing):
     """Return a step towards the zero of w; far from the zero it is Newton's step."""
     y, correction = corrected_step(w, dw, forcing)
-    # The product must not be fused with a time that it is added to: the last digits of every motion would change.
     return y * correction if 0.5 < correction < 2.0 else y
 
 

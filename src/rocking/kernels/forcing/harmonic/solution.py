@@ -23,7 +23,7 @@ from rocking.kernels.forcing.harmonic.acceleration import (
     forcing_term,
     particular,
 )
-from rocking.kernels.numerics.elementary import hyperbolic
+from rocking.kernels.numerics.elementary import fma, hyperbolic
 
 ROUNDING = 2.0**-53
 
@@ -87,8 +87,8 @@ def propagate(p, arc, propagator):
     steady, displaced, moved, cosine, sine = forced_response(
         p, arc.drive.cosine, arc.drive.sine, arc.angle - 1.0, arc.constants.acceleration, forced_step
     )
-    risen = arc.velocity * sinh + steady * versinh + displaced
-    velocity = arc.velocity + (arc.velocity * versinh + steady * sinh + moved)
+    risen = fma(arc.velocity, sinh, fma(steady, versinh, displaced))
+    velocity = arc.velocity + fma(arc.velocity, versinh, fma(steady, sinh, moved))
     return Instant(arc.angle + risen, risen, velocity, HarmonicDrive(cosine, sine), sinh, versinh)
 
 
