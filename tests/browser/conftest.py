@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 from typing import NamedTuple
@@ -45,14 +46,19 @@ class Running(NamedTuple):
 def running():
     """Run an explorer that must end without messages."""
     command = [sys.executable, "-m", "rocking", "explore", "--port", "0", "--no-browser"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    # A pipe that nobody reads stops the server when it is full: Bokeh notes each message to a visit that is gone.
+    with (
+        tempfile.TemporaryFile("w+") as errors,
+        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors, text=True) as process,
+    ):
         try:
             line = process.stdout.readline()
             yield Running(line.split()[0], process)
         finally:
             process.terminate()
-            errors = process.communicate()[1]
-    assert "Traceback" not in errors
+            process.wait()
+        errors.seek(0)
+        assert "Traceback" not in errors.read()
 
 
 @pytest.fixture(scope="session")
