@@ -6,8 +6,6 @@ export PYTHON
 
 bin := .venv/bin
 workers ?= 2
-# Tests and pages start when all kernels are compiled, so that none of them waits.
-compile = $(bin)/python -m rocking.kernels
 # Chromium for the tests of the page, which are skipped if it cannot be installed.
 chromium = [ -x /usr/bin/chromium ] || scripts/debian.sh chromium || echo 'without it the tests of the page are skipped'
 
@@ -19,9 +17,9 @@ print = scripts/debian.sh libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0 |
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS=$$'\t' read -r name what; do printf 'make %-15s %s\n' "$$name" "$$what"; done
 
-setup: ## make .venv with the pinned versions, or bring it up to date, and compile the kernels in the background
+setup: ## make .venv with the pinned versions and compile the kernels, or bring both up to date
 	@scripts/setup.sh
-	@$(compile) --background
+	@$(bin)/python -m rocking.kernels
 
 reproduce: setup ## reports on Yim & Lin (1991), and on pulses and earthquakes: results/*/index.html
 	@$(print)
@@ -33,18 +31,15 @@ explore: setup ## interactive explorer in the browser; port=N selects the port
 
 test: lint ## lint, then the fast tests, the examples in docstrings and the pages
 	@$(print)
-	@$(compile)
 	@$(chromium)
 	@$(bin)/python -m pytest -q -n $(workers)
 
 test-long: setup ## tests that take minutes: millions of crossings, systems and cycles, the report
-	@$(compile)
 	@$(chromium)
 	@$(bin)/python -m pytest -q -n $(workers) -m long --timeout 3600 $(options)
 
 test-exhaustive: setup ## tests of a sample, such as 300 points of a map, on all points: hours
 	@$(print)
-	@$(compile)
 	@$(bin)/python -m pytest -q -n $(workers) -m 'long or not long' --exhaustive --timeout 0 -rP tests
 
 mutations: setup ## break the code on purpose and expect tests to fail; files="plot/ melnikov" selects, workers=N at a time
@@ -67,16 +62,15 @@ format: setup ## format the sources
 	@$(bin)/ruff check --quiet --fix-only
 	@$(bin)/ruff format
 
-docs: ## the pages, with all code blocks executed: build/docs/index.html
+docs: setup ## the pages, with all code blocks executed: build/docs/index.html
 	@scripts/setup.sh docs
 	@$(chromium)
-	@$(compile)
 	@$(bin)/python -m sphinx --quiet --fail-on-warning --keep-going -d build/docs-pages docs build/docs
 	@echo wrote build/docs/index.html
 
 site: reproduce docs ## the reports, then the pages with them: minutes longer than docs
 
-wheel: setup ## wheel with the machine code of all kernels: dist/
+wheel: setup ## wheel with the compiled kernels: dist/
 	@$(bin)/python scripts/wheel.py
 
 constraints: ## pin the newest versions again; PYTHONS names an interpreter of each minor version

@@ -5,7 +5,6 @@ from benchmarks import (
     explorer,
     full_block,
     lanes,
-    machine_code,
     one_block,
     orbits,
     processes,
@@ -23,11 +22,7 @@ def main():
     report.section("Two threads against one", one_block.threads())
     report.section("Ground motions: time per run, and ratio of the others' time to it", records.speed())
     report.section("The full block: time, and ratio of the others' time to it", full_block.speed())
-    report.section("Compiling the kernels", processes.compiling())
-    report.section("First answers", processes.first_answers())
-    report.section(
-        "Machine code of the builders, compared with that compiled in this process", machine_code.speed()
-    )
+    report.section("The library of compiled kernels", processes.library())
     report.section("Whole processes", processes.commands())
     report.section("A long run", processes.long_run())
     report.section("Classification over the paper's map", verdicts.maps())

@@ -83,7 +83,7 @@ def git(root, *arguments):
 
 @contextmanager
 def checked_out(root, commit):
-    """Check a commit out into a temporary folder, as the side REF; its machine code is cached there too."""
+    """Check a commit out into a temporary folder, as the side REF; its machine code is written there too."""
     with tempfile.TemporaryDirectory(prefix="rocking-against-") as folder:
         tree = Path(folder, "tree")
         git(root, "worktree", "add", "--detach", str(tree), commit)
@@ -93,21 +93,39 @@ def checked_out(root, commit):
             git(root, "worktree", "remove", "--force", str(tree))
 
 
+def has_library(side):
+    """Return whether the kernels of a side are one library in its sources; those of older commits are cached files."""
+    return (side.source / "rocking/kernels/library/build.py").exists()
+
+
 def compile_kernels(sides, names):
-    """Run every case once on both sides at the same time: the machine code is cached on disk."""
+    """Compile the kernels of both sides, each in its own way. Older commits compile what the cases call, then the rest."""
     with ExitStack() as stack:
-        workers = [stack.enter_context(Worker(side)) for side in sides]
+        workers = [stack.enter_context(Worker(side)) for side in sides if not has_library(side)]
         for name in names:
             for worker in workers:
                 worker.request(name)
             for worker in workers:
                 worker.seconds()
     for side in sides:
-        if (
-            side.source / "rocking/kernels/__main__.py"
-        ).exists():  # builders may still be at work on other kernels
-            command = [sys.executable, "-P", "-m", "rocking.kernels"]
-            subprocess.run(command, env=side.environment | {"PYTHONPATH": str(side.source)}, check=True)
+        if (side.source / "rocking/kernels/__main__.py").exists():
+            run_to_end([sys.executable, "-P", "-m", "rocking.kernels"], side)
+
+
+def run_to_end(command, side):
+    """Run a command of a side. If this process is interrupted, the command ends first, and removes its files."""
+    environment = side.environment | {"PYTHONPATH": str(side.source)}
+    with subprocess.Popen(
+        command, env=environment, stdout=subprocess.DEVNULL, start_new_session=True
+    ) as process:
+        try:
+            code = process.wait()
+        except BaseException:
+            process.send_signal(signal.SIGINT)
+            process.wait()
+            raise
+    if code:
+        raise ChildProcessError(f"the kernels of {side.source} were not compiled: the message stands above")
 
 
 def measure_pairs(sides, names, order):
@@ -156,7 +174,7 @@ def compare(root, commit, names, seed, console):
     order, pairs = random.Random(seed), {name: [] for name in names}
     with checked_out(root, commit) as ref:
         sides = ref, Side(root / "src", dict(os.environ))
-        with console.status("compiling both sides: a minute or two"):
+        with console.status("compiling both sides: some minutes"):
             compile_kernels(sides, names)
         open_cases = list(names)
         while open_cases:

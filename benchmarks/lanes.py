@@ -50,7 +50,6 @@ def systems_of(points, restitution=1.0, brace_angle=math.inf):
 
 def against_one():
     """Time the map at e = 1, the points of a finer map that reach the last cycle, and the map with braces."""
-    batch.load_kernels(full=False)
     systems = systems_of(POINTS)
     together, answers = quickest(RUNS, lambda: in_lanes(systems), thread_time)
     alone, told = quickest(RUNS, lambda: one_by_one(systems), thread_time)

@@ -1,7 +1,8 @@
-"""Calls of every entry point, recorded from a workload, and repeated with other machine code.
+"""Calls of every entry point, recorded from a workload, and repeated with another library of kernels.
 
-`python -m benchmarks.recorded_calls FOLDER`: compare the object files of a folder with what this process compiles. For each
-entry point it prints a line: its name, the number of calls, of those with other results, and the ratio of the times.
+`python -m benchmarks.recorded_calls LIBRARY`: compare a library, such as that of another class of processors or of other
+options of the compiler, with that of the package. For each entry point it prints a line: its name, the number of calls, of
+those with other results, and the ratio of the times.
 """
 
 import copy
@@ -13,8 +14,9 @@ from time import perf_counter
 import numpy as np
 
 import rocking as rk
-from rocking.kernels import entry_point, machine_code
+from rocking.kernels import entry_point
 from rocking.kernels.deferred import import_all
+from rocking.kernels.library.load import open_library
 from rocking.kernels.march.ending import ENDING_ROW
 from rocking.kernels.march.finite_runs import PULSE_ROW, RUN_ROW, run_batch, run_pulses
 from rocking.motion.kernel_parameters import parameters
@@ -22,7 +24,7 @@ from rocking.motion.kernel_parameters import parameters
 MAX_CALLS = 40
 """Calls kept of each entry point."""
 SECONDS = 0.3
-"""Time of the repetitions of a call, with either machine code."""
+"""Time of the repetitions of a call, with either library."""
 MIN_ROUNDS = 10
 
 
@@ -95,16 +97,10 @@ def record_calls():
     return calls
 
 
-def runner(entry, code):
-    """Return a function that runs an entry point with its machine code from an object file, in an engine of its own."""
-    loader = machine_code.Loader()
-    function = ctypes.CFUNCTYPE(None, ctypes.c_int64)(loader.load(code, machine_code.symbol_of(entry.name)))
-
-    def run(block):
-        function(ctypes.addressof(ctypes.c_char.from_buffer(block)))
-
-    run.loader = loader  # its end would be that of the machine code
-    return run
+def runner(function):
+    """Return a function that runs a compiled function on a block of words."""
+    function.argtypes, function.restype = (ctypes.c_int64,), None
+    return lambda block: function(ctypes.addressof(ctypes.c_char.from_buffer(block)))
 
 
 def outcome(entry, run, arguments):
@@ -125,7 +121,7 @@ def arrays_in(value):
 
 
 def ratio_of_times(entry, runs, arguments):
-    """Return the time of a call with the first machine code, relative to the second: the quickest of many, in turn."""
+    """Return the time of a call with the first library, relative to the second: the quickest of many, in turn."""
     arguments = copy.deepcopy(arguments)  # held, because the block has only their addresses
     block, best = entry.signature.pack(arguments), [np.inf, np.inf]
     original, ends, rounds = bytes(block), perf_counter() + 2.0 * SECONDS, 0
@@ -139,12 +135,12 @@ def ratio_of_times(entry, runs, arguments):
     return best[0] / best[1]
 
 
-def main(folder):
+def main(path):
     """Print a line for each entry point."""
+    other = open_library(Path(path))
     for name, calls in record_calls().items():
         entry = entry_point.ENTRY_POINTS[name]
-        stored = (Path(folder) / f"{name}.o").read_bytes()[machine_code.DIGEST_BYTES :]
-        runs = runner(entry, stored), runner(entry, entry.compile())
+        runs = runner(getattr(other, entry.symbol)), runner(entry.load())
         others = sum(outcome(entry, runs[0], each) != outcome(entry, runs[1], each) for each in calls)
         print(name, len(calls), others, ratio_of_times(entry, runs, calls[-1]), flush=True)
 

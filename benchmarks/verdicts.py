@@ -65,7 +65,6 @@ def judged(restitution, max_cycles):
 
 def maps():
     """Time the map of figure 11 (e = .925) and that of figure 10 (e = 1)."""
-    batch.load_kernels(full=False)
     kinds, grounds, work, seconds = judged(0.925, 100_000)
     undetermined, resets = kinds == verdict_record.UNDETERMINED, grounds == verdict_record.UNRESOLVED_RESET
     yield Figure("e = .925, impacts per point, all work", work.mean(), "", 40)

@@ -93,14 +93,19 @@ constraints=$(constraints_for "$version") || refuse "$python, version $version"
 
 if is_usable; then
     echo "Bringing .venv up to date with $constraints ..."
-    rm "$STAMP"
 else
-    echo "Setting up .venv with Python $version: a minute or more, about 300 MB to download the first time ..."
-    rm -f "$STAMP"
+    echo "Setting up .venv with Python $version: two minutes or more, about 350 MB to download the first time ..."
     rm -rf .venv
     "$python" -m venv .venv
 fi
-.venv/bin/python -m pip install --quiet --constraint "$constraints" pip setuptools
-install "$constraints" '.[distributed,explorer,report,test,lint]'
+pwd >"$STAMP" # if this is interrupted, the next call goes on with the same .venv
+# pip hides the lines of a build. So the kernels are compiled before it builds the package, and it finds them.
+linker=ziglang # it has one, for machines without a C compiler
+for compiler in cc gcc clang; do
+    ! command -v "$compiler" >/dev/null || linker=
+done
+.venv/bin/python -m pip install --quiet --constraint "$constraints" pip setuptools numba $linker
+PYTHONPATH=src .venv/bin/python -m rocking.kernels
+install "$constraints" '.[kernels,distributed,explorer,report,test,lint]'
 echo "$wanted" >"$STAMP"
 add "$@"

@@ -1,8 +1,8 @@
 """Rerun the mutations of ``mutations.toml``: break the code on purpose and expect a test to fail.
 
 Each entry names a file, the text to replace, its replacement, and the test that must fail. The work is done in
-copies of the checkout in a temporary folder. A mutation of a kernel compiles the kernels again, which takes a
-minute or more.
+copies of the checkout in a temporary folder. With a mutation of a kernel, each entry point that the test calls is
+compiled alone, when it is called.
 """
 
 import argparse
@@ -24,7 +24,24 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 LIST = Path(__file__).with_suffix(".toml")
 KERNELS = "src/rocking/kernels/"
-MACHINE_CODE = "tests/faults/test_machine_code.py"
+LOAD = KERNELS + "library/load.py"
+# In a copy with a changed kernel this stands at the end of the module that opens the library.
+COMPILED_ALONE = """
+
+def function_of(symbol):
+    import subprocess
+    from rocking.kernels.library import build
+
+    made = Path({folder!r}, symbol + ".so")
+    with build.TemporaryDirectory() as folder:
+        if not made.exists():
+            build.Compilers(Path(folder), subprocess.DEVNULL).compile([symbol], [processor_class()])
+            build.link(list(Path(folder).glob("*.o")), Path(folder, made.name))
+            build.place(Path(folder, made.name), made)
+    function = getattr(ctypes.CDLL(str(made)), symbol)
+    function.argtypes, function.restype = (ctypes.c_int64,), None
+    return function
+"""
 NOT_COPIED = shutil.ignore_patterns(".*", "__pycache__", "build", "results", "*.egg-info")
 # Exit code of pytest for tests that ran and failed. After any other code no test has failed.
 TESTS_FAILED = 1
@@ -42,6 +59,11 @@ class Mutation:
     def __str__(self):
         old, new = (" ".join(text.split()) for text in (self.old, self.new))
         return f"{self.file.removeprefix('src/rocking/')}: {old} → {new or '(nothing)'}"
+
+    @property
+    def changes_a_kernel(self):
+        """Return whether the change is one of compiled code."""
+        return self.file.startswith(KERNELS) and not self.file.startswith(KERNELS + "library/")
 
     def apply(self, source):
         """Return the changed source."""
@@ -79,23 +101,25 @@ class Copies:
             Whether the test failed, and the reason in one line.
         """
         copy = self.free.get()
-        file = copy / mutation.file
-        source, status = file.read_bytes(), file.stat()
+        files = {mutation.file, LOAD} if mutation.changes_a_kernel else {mutation.file}
+        before = {file: (copy / file).read_bytes() for file in files}
         try:
-            file.write_text(mutation.apply(source.decode()), encoding="utf-8")
-            if not mutation.file.startswith(KERNELS):
-                return self.detect(mutation, copy, self.folder / "cache")
-            with tempfile.TemporaryDirectory(dir=self.folder, ignore_cleanup_errors=True) as cache:
-                return self.detect(mutation, copy, cache)
+            with tempfile.TemporaryDirectory(dir=self.folder, ignore_cleanup_errors=True) as folder:
+                (copy / mutation.file).write_text(
+                    mutation.apply(before[mutation.file].decode()), encoding="utf-8"
+                )
+                if mutation.changes_a_kernel:
+                    text = before[LOAD].decode() + COMPILED_ALONE.format(folder=folder)
+                    (copy / LOAD).write_text(text, encoding="utf-8")
+                return self.detect(mutation, copy)
         finally:
-            # The compiler's cache compares the time of a file, so the file gets its old time back.
-            file.write_bytes(source)
-            os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
+            for file, content in before.items():
+                (copy / file).write_bytes(content)
             self.free.put(copy)
 
-    def detect(self, mutation, copy, cache):
+    def detect(self, mutation, copy):
         """Run the test of a mutation that is applied in a copy. Returns as `check`."""
-        code, output = self.pytest(copy, cache, [mutation.test], self.seconds)
+        code, output = self.pytest(copy, [mutation.test], self.seconds)
         if code is None:
             return False, f"no result within {self.seconds:g} s"
         return code == TESTS_FAILED, describe(code, output) or "the test passes"
@@ -104,22 +128,18 @@ class Copies:
         """Run tests in an unchanged copy. Returns None if they pass, else the reason in one line."""
         copy = self.free.get()
         try:
-            return describe(*self.pytest(copy, self.folder / "cache", tests, seconds=None))
+            return describe(*self.pytest(copy, tests, seconds=None))
         finally:
             self.free.put(copy)
 
-    def pytest(self, copy, cache, tests, seconds):
+    def pytest(self, copy, tests, seconds):
         """Run tests in a copy. Returns the exit code, None after the time limit, and the output."""
         options = ["-q", "-x", "--tb=short", "--timeout=0", "-p", "no:cacheprovider"]
         command = [sys.executable, "-m", "pytest", *options, "-m", "long or not long", *tests]
         environment = os.environ | {
             "PYTHONPATH": str(copy / "src"),
-            "NUMBA_CACHE_DIR": str(cache),
             "PYTHONDONTWRITEBYTECODE": "1",
         }
-        if not any(test.startswith(MACHINE_CODE) for test in tests):
-            # As in a builder of machine code, no other builder is started, which would outlive the test.
-            environment["ROCKING_IS_BUILDER"] = "1"
         with subprocess.Popen(
             command,
             cwd=copy,

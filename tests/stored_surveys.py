@@ -7,8 +7,6 @@ import numpy as np
 import xarray as xr
 
 import rocking as rk
-from rocking.kernels import batch
-from rocking.survey.measures.ending import load_kernels
 
 
 class StoredSurvey(NamedTuple):
@@ -24,7 +22,6 @@ class StoredSurvey(NamedTuple):
     limit: int
     marker: str
     other: str
-    load: Callable[[bool, bool], None]
 
     def run(self, store, **changed):
         """Run the survey in a store, with some arguments changed or added."""
@@ -52,7 +49,6 @@ SURVEYS = {
         15_000,
         "cycles",
         "brace_hits_per_period",
-        batch.load_kernels,
     ),
     "ground-motions": StoredSurvey(
         rk.rocking_spectrum,
@@ -61,7 +57,6 @@ SURVEYS = {
         100_000,
         "impacts",
         "margin",
-        load_kernels,
     ),
 }
 

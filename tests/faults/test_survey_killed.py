@@ -21,7 +21,7 @@ from rocking.survey.engine.tile_loop import Pending, _settle
 from rocking.survey.store.locking import defer_interrupt
 from stored_surveys import SURVEYS, chunks, files
 
-# Kernels are loaded before any thread begins: then every run may be a fork of this process.
+# No thread begins here: then every run may be a fork of this process.
 BEGIN = f"""
 import os, random, resource, signal, sys, time
 
@@ -30,7 +30,6 @@ import xarray, zarr
 from stored_surveys import SURVEYS
 
 survey, folder = SURVEYS[sys.argv[1]], sys.argv[2]
-survey.load(False)
 """
 KILLED = (
     BEGIN
@@ -51,7 +50,6 @@ while killed < 10:
 FULL = (
     BEGIN
     + """
-survey.load(False)  # under the limit machine code could not be cached
 resource.setrlimit(resource.RLIMIT_FSIZE, (survey.limit, survey.limit))
 try:
     survey.run(folder, **survey.uneven)

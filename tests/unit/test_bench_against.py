@@ -1,6 +1,7 @@
 """Comparison of two commits pair by pair: intervals, verdicts, and no files left behind."""
 
 import math
+import os
 import random
 import signal
 import subprocess
@@ -137,6 +138,62 @@ def test_each_side_runs_its_own_sources_in_pairs_of_random_order_after_one_run_t
     new_first = ("new", "new", "REF", "REF", *("new", "REF") * 2)
     assert set(rounds) == {ref_first, new_first}
     assert left_behind(repository) == (0, [])
+
+
+COMPILER = """
+import os, sys, time
+
+print("compile SIDE", *sys.argv[1:], file=open(os.environ["CALLS"], "a"))
+"""
+"""Stand-in for the compiler of the kernels of a side."""
+
+
+@pytest.fixture
+def compiled_sides(repository):
+    """REF, an older commit, and the working tree with a library of kernels; both report what compiles them."""
+    sides = [against.Side(repository / name, dict(os.environ)) for name in ("older", "src")]
+    for side, name in zip(sides, ("REF", "new"), strict=True):
+        package = side.source / "rocking"
+        (package / "kernels/library").mkdir(parents=True)
+        (package / "__init__.py").write_text(PACKAGE.replace("SIDE", name))
+        (package / "kernels/__init__.py").touch()
+        (package / "kernels/__main__.py").write_text(COMPILER.replace("SIDE", name))
+    (sides[1].source / "rocking/kernels/library/build.py").touch()
+    return sides
+
+
+def test_an_older_commit_compiles_what_its_cases_call_and_a_library_is_compiled_without_them(
+    compiled_sides, tmp_path
+):
+    against.compile_kernels(compiled_sides, [CASE])
+    lines = (tmp_path / "calls").read_text().splitlines()
+    assert lines == ["REF", "REF", "compile REF", "compile new"]  # a case runs twice, and only once is timed
+
+
+def test_kernels_that_do_not_compile_end_the_comparison(compiled_sides):
+    main = compiled_sides[1].source / "rocking/kernels/__main__.py"
+    main.write_text("raise SystemExit(1)")
+    with pytest.raises(ChildProcessError, match="were not compiled"):
+        against.compile_kernels(compiled_sides[1:], [CASE])
+
+
+def test_an_interrupted_compilation_ends_in_order(compiled_sides, tmp_path, monkeypatch):
+    main = compiled_sides[1].source / "rocking/kernels/__main__.py"
+    waits = "try:\n    time.sleep(600)\nfinally:\n    time.sleep(0.5)\n    open(os.environ['CALLS'] + '-end', 'w')\n"
+    main.write_text(COMPILER + waits)
+    program = (
+        "import sys; from pathlib import Path; from benchmarks import against; against.end_on_signals();"
+        "import os; against.compile_kernels([against.Side(Path(sys.argv[1]), dict(os.environ))], [])"
+    )
+    command = [sys.executable, "-c", program, compiled_sides[1].source]
+    with subprocess.Popen(command, cwd=ROOT, stderr=subprocess.DEVNULL) as process:
+        while not (tmp_path / "calls").exists():
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(signal.SIGTERM)
+        process.wait(timeout=60)
+    assert process.returncode != 0
+    assert (tmp_path / "calls-end").exists()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -509,7 +509,7 @@ def test_terminal_without_greek_letters_is_served(tmp_path):
 
 
 @pytest.mark.parametrize("terminal", [True, False])
-def test_what_takes_long_is_told_on_a_terminal_alone(monkeypatch, capsys, terminal):
+def test_logged_error_is_one_line_with_its_exception_on_a_terminal(monkeypatch, capsys, terminal):
     log = logging.getLogger("rocking")
     monkeypatch.setattr(log, "handlers", [])
     monkeypatch.setattr(log, "level", logging.NOTSET)
@@ -518,8 +518,11 @@ def test_what_takes_long_is_told_on_a_terminal_alone(monkeypatch, capsys, termin
     monkeypatch.setattr(signal, "signal", lambda *_: None)
     with pytest.raises(SystemExit):
         main()
-    log.info("compiling")
-    assert capsys.readouterr().err == "rocking: compiling\n" * terminal
+    log.info("not shown")
+    log.warning("the job %r is slow", "read")
+    log.getChild("explorer").error("the job %r failed", "read", exc_info=ValueError("so\nsad"))
+    told = "rocking: the job 'read' is slow\nrocking: the job 'read' failed: ValueError: so sad\n"
+    assert capsys.readouterr().err == told * terminal
 
 
 def test_phase_is_told_in_degrees_too_in_which_nobody_should_type_it(rocking):

@@ -4,8 +4,6 @@ import asyncio
 import itertools
 import json
 import math
-import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import partial
@@ -20,7 +18,6 @@ from hypothesis import strategies as st
 import rocking as rk
 from rocking.explorer import (
     bokeh_figures,
-    compilation,
     figure_data,
     plane_axes,
     presets,
@@ -557,7 +554,7 @@ def test_what_is_under_way_for_one_system_ends_when_another_is_chosen():
 
     async def run():
         stops, workers = {}, Workers()
-        visit = Session(Document(), workers, compilation.Compilation())
+        visit = Session(Document(), workers)
         visit.hear(json.dumps({"what": "open", "fields": {}}))
 
         async def endless(name, stop):
@@ -736,47 +733,3 @@ def test_response_that_forgets_is_told_in_the_words_of_the_command_line(rocking)
     facts = dict(texts.verdict(verdict, None)["facts"])
     assert (code, facts["largest Lyapunov exponent λ₁"]) == (0, "−∞ (superstable)")
     assert facts["largest Lyapunov exponent λ₁"] in out
-
-
-LOADED = """
-import sys
-from attrs import evolve
-import numpy as np
-from rocking.explorer import compilation, figure_data
-from rocking.explorer.progressive_map import COARSEST, Plane, Refinement
-from rocking.explorer.view_state import DEFAULT
-from rocking.explorer.worker_pools import Workers
-from rocking.kernels.entry_point import ENTRY_POINTS
-
-figure, restitution, brace_angle, critical_angle = sys.argv[1], *(float(text) or None for text in sys.argv[2:])
-shown = evolve(DEFAULT, restitution=restitution, brace_angle=brace_angle, critical_angle=critical_angle, first=3)
-stop = np.zeros(1, np.int64)
-if figure in ("map", "basin"):
-    plane = Plane(("period", shown.periods), ("amplitude", shown.amplitudes), shown.fixed, COARSEST + 1, with_attractors=figure == "basin")
-    Refinement(plane, Workers(), stop).coarse()
-    figure_data.affordable(shown, 10)
-elif figure == "diagram":
-    figure_data.diagram(shown, stop)
-elif figure == "section":
-    figure_data.Section(shown).grow(2)
-else:
-    {"motion": figure_data.traces, "spectrum": figure_data.spectrum, "verdict": figure_data.verdict}[figure](shown)
-loaded = {name for name, entry in ENTRY_POINTS.items() if entry.is_loaded}
-print(sorted(loaded - set(compilation.needed(figure, shown))), len(loaded) > 2)
-"""
-
-
-@pytest.mark.parametrize(
-    "restitution, brace_angle, critical_angle",
-    [(0.925, 0.0, 0.0), (1.0, 0.0, 0.0), (0.925, 1.0, 0.0), (1.0, 1.0, 0.25)],
-)
-@pytest.mark.parametrize("figure", compilation.NEEDED)
-def test_figure_waits_for_all_machine_code_that_it_needs(figure, restitution, brace_angle, critical_angle):
-    """Else a thread of the explorer waits for it, and other figures for the thread."""
-    told = subprocess.run(
-        [sys.executable, "-c", LOADED, figure, str(restitution), str(brace_angle), str(critical_angle)],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert told.stdout == "[] True\n"

@@ -5,8 +5,6 @@ import io
 import itertools
 import json
 import math
-import subprocess
-import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
@@ -21,7 +19,6 @@ from hypothesis import strategies as st
 
 import record_files as write
 import rocking as rk
-from rocking.explorer import compilation
 from rocking.explorer.field_readers import Refused
 from rocking.explorer.ground_motion import renderer
 from rocking.explorer.ground_motion.block_motion import block_motion, margin_in_words
@@ -421,49 +418,12 @@ def test_margin_is_the_speed_that_the_block_lacked_or_had_to_spare():
     assert "faster than it had to be" in margin_in_words(spared, block)
 
 
-LOADED = """
-import sys
-
-import numpy as np
-from attrs import evolve
-
-import rocking as rk
-from rocking.explorer.compilation import needed_by_ground
-from rocking.explorer.ground_motion import renderer
-from rocking.explorer.ground_motion.block_motion import block_motion
-from rocking.explorer.ground_motion.ground import Ground
-from rocking.explorer.ground_motion.view import DEFAULT
-from rocking.kernels.entry_point import ENTRY_POINTS
-from rocking.survey import BlockEndings
-
-figure, model, kind = sys.argv[1:]
-pulse = rk.Pulse(kind, amplitude=4.0, duration=0.5)
-if figure == "motion":
-    block_motion(evolve(DEFAULT, model=model, scale=1.0), Ground(pulse))
-else:
-    BlockEndings(pulse, 1.0, model).at(np.ones(2), np.array([0.1, 0.2]), np.zeros(1, np.int64))
-loaded = {name for name, entry in ENTRY_POINTS.items() if entry.is_loaded}
-print(sorted(loaded - set(needed_by_ground(figure, model))), len(loaded) > 0)
-"""
-
-
-@pytest.mark.parametrize("kind", ["one-sine", "triangular"])
-@pytest.mark.parametrize("model", ["slender", "full"])
-@pytest.mark.parametrize("figure", compilation.GROUND)
-def test_figure_waits_for_all_machine_code_that_it_needs(figure, model, kind):
-    """Else a thread of the explorer waits for it, and other figures for the thread."""
-    told = subprocess.run(
-        [sys.executable, "-c", LOADED, figure, model, kind], capture_output=True, text=True, check=True
-    )
-    assert told.stdout == "[] True\n"
-
-
 # ---- session
 
 
 def test_invalid_message_or_file_leaves_the_view_and_says_so(workers):
     async def visit():
-        session = GroundSession(Document(), workers, compilation.Compilation())
+        session = GroundSession(Document(), workers)
         session.hear("{")
         refused = [session.link.refused]
         session.hear('{"n": 1, "what": "fields", "fields": {"source": "file"}}')
@@ -490,7 +450,7 @@ def test_motion_with_too_many_events_is_not_shown_as_the_one_before(workers, mon
         change()
 
     async def visit():
-        session = GroundSession(Document(), workers, compilation.Compilation())
+        session = GroundSession(Document(), workers)
         monkeypatch.setattr(session.renderer, "_draw", at_once)
         monkeypatch.setattr(renderer, "block_motion", crowded)
         await session.renderer.draw_motion(DEFAULT, np.zeros(1, np.int64))

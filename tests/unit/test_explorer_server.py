@@ -16,7 +16,7 @@ from bokeh.application.handlers.function import FunctionHandler
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
-from rocking.explorer import compilation, server
+from rocking.explorer import server
 from rocking.explorer.ground_motion import GroundSession
 from rocking.explorer.server import MAX_MESSAGE, is_ours, local_server
 from rocking.explorer.session import Session
@@ -249,9 +249,7 @@ def test_request_is_heard_in_the_event_loop_whichever_thread_brings_it(kind):
     async def visit():
         visits, workers = [], Workers()
         made = local_server(
-            Application(
-                FunctionHandler(lambda page: visits.append(kind(page, workers, compilation.Compilation())))
-            ),
+            Application(FunctionHandler(lambda page: visits.append(kind(page, workers)))),
             0,
         )
         made.start()

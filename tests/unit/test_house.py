@@ -10,6 +10,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import rocking
+from rocking.kernels.library.processor import COMPILER
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
@@ -188,8 +189,10 @@ def test_packages_whose_inner_parts_are_used_have_an_upper_bound():
     used = {name for path in MODULES for name in inner.findall(path.read_text())}
     bounded = {
         requirement.name
-        for requirement in map(Requirement, PROJECT["dependencies"])
-        if any(bound.operator == "<" for bound in requirement.specifier)
+        for requirement in map(
+            Requirement, [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["kernels"]]
+        )
+        if any(bound.operator in ("<", "==") for bound in requirement.specifier)
     }
     # bokeh documents what is in its `core`
     assert {"numba", "zarr"} <= used - {"bokeh"} <= bounded
@@ -206,3 +209,9 @@ def test_package_is_cited_by_the_authors_and_the_year_of_its_files():
     assert author == holder
     assert f"author = {{{{{author}}}}}," in package
     assert f"year = {{{year}}}," in package
+
+
+def test_extra_for_kernels_has_the_versions_of_the_sources():
+    assert PROJECT["optional-dependencies"]["kernels"] == [
+        f"{name}=={each}" for name, each in COMPILER.items()
+    ]

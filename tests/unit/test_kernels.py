@@ -1,26 +1,28 @@
-"""Compiled code: what entry points need, new machine code after every edit, and resumed marches without a trace."""
+"""Compiled code: what the library gives and takes, edits that are noticed, and resumed marches without a trace."""
 
 import math
-import os
+import re
 import shutil
-import subprocess
-import sys
 
 import mpmath
 import numpy as np
 import pytest
+from elftools.elf.elffile import ELFFile
 
-from rocking.kernels import event_kinds, machine_code
+from rocking.kernels import event_kinds
 from rocking.kernels.deferred import import_all
 from rocking.kernels.entry_point import ENTRY_POINTS
 from rocking.kernels.forcing.harmonic import parameters
+from rocking.kernels.library import load
+from rocking.kernels.library.emit import C_LIBRARY
+from rocking.kernels.library.load import SOURCES, TEXTS, path_of
+from rocking.kernels.library.processor import processor_class
 from rocking.kernels.march import initial_state
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.numerics import elementary, estimates
 from rocking.kernels.numerics.replace_fields import replacing
-from scripts import wheel
 
 import_all()
 
@@ -34,54 +36,38 @@ def march(p, cycles, angle=0.0, velocity=0.0):
     return found
 
 
-@pytest.mark.parametrize("name", ENTRY_POINTS)
-def test_entry_point_calls_the_c_library_alone(name):
+def test_library_exports_the_entry_points_and_calls_the_c_library_alone():
     """It allocates no array, raises nothing and needs neither numba nor Python."""
-    ENTRY_POINTS[name].load()
-    code = machine_code.read(name)
-    assert wheel.imports_of(code) <= wheel.C_LIBRARY
-    assert wheel.exports_of(code) == {machine_code.symbol_of(name)}
+    with path_of(processor_class()).open("rb") as stream:
+        symbols = list(ELFFile(stream).get_section_by_name(".dynsym").iter_symbols())
+    taken = {symbol.name for symbol in symbols if symbol["st_shndx"] == "SHN_UNDEF"} - {""}
+    given = {symbol.name for symbol in symbols if symbol["st_shndx"] != "SHN_UNDEF"}
+    assert taken <= C_LIBRARY
+    assert given == {entry.symbol for entry in ENTRY_POINTS.values()} | {SOURCES, TEXTS}
 
 
-def test_an_edit_of_any_source_changes_the_folder_of_the_machine_code(tmp_path, monkeypatch):
+def test_functions_of_vectors_stand_in_the_loop_over_lanes():
+    """A call would write its vectors to memory. In one module with the other kernels, this made a map four times as slow."""
+    with path_of(processor_class()).open("rb") as stream:
+        names = [symbol.name for symbol in ELFFile(stream).get_section_by_name(".symtab").iter_symbols()]
+    assert any("classify_batch_lanes" in name for name in names)
+    called = {name for name in names if "numerics4simd" in name or "kernels5lanes" in name}
+    assert {name for name in called if not re.search("lanes(15scalar_fallback|3log)", name)} == set()
+
+
+def test_an_edit_of_any_source_is_noticed(tmp_path, monkeypatch):
     """This holds for a new file in a subpackage too."""
     package = tmp_path / "kernels"
-    shutil.copytree(machine_code.SOURCES, package, ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(machine_code, "SOURCES", package)
-    found = [machine_code.hash_sources.__wrapped__()]
-    assert found == [machine_code.hash_sources()]
-    for path in ("march/impact_law.py", "builder.py", "inner/new.py"):
+    shutil.copytree(load.KERNELS, package, ignore=shutil.ignore_patterns("__pycache__", "*.so"))
+    found = [load.hash_sources()]
+    monkeypatch.setattr(load, "KERNELS", package)
+    assert load.hash_sources.__wrapped__() == found[0]
+    for path in ("march/impact_law.py", "library/lower.py", "inner/new.py"):
         source = package / path
         source.parent.mkdir(exist_ok=True)
-        source.write_text(source.read_text() + "\n" if source.exists() else "")
-        found.append(machine_code.hash_sources.__wrapped__())
+        source.write_text((source.read_text() if source.exists() else "") + "\nx = 1\n")
+        found.append(load.hash_sources.__wrapped__())
     assert len(set(found)) == 4
-
-
-CHAOS = """
-import rocking as rk
-braced = rk.System(rk.Harmonic(15.0, period=2.0), 0.925, rk.Braces(1.0))
-print(rk.simulate(braced, cycles=30_000, record="none").final)
-"""
-MODE = "import rocking as rk; assert rk.theory.symmetric_modes(2.0, 1.0, 0.9, 1)[0].admissible"
-
-
-@pytest.mark.long
-def test_a_chaotic_run_is_the_same_whatever_was_compiled_when(tmp_path):
-    """It multiplies a last digit to the first."""
-    found = set()
-    for folder, code in (
-        ("one", CHAOS),
-        ("one", CHAOS),
-        ("two", MODE),
-        ("two", MODE + CHAOS),
-        ("two", CHAOS),
-    ):
-        environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / folder)}
-        command = [sys.executable, "-c", code]
-        told = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
-        found |= {told} - {""}
-    assert len(found) == 1
 
 
 def test_marching_in_pieces_is_marching_in_one_go():

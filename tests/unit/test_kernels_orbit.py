@@ -21,12 +21,6 @@ RANDOM = np.random.default_rng(1991)
 SYSTEM = harmonic_parameters(2.0, 2.0 * math.pi, 1.0, 0.0, 0.925)
 
 
-@pytest.fixture(scope="module", autouse=True)
-def kept_on_disk():
-    """Cached machine code contains copies of the same kernels, which must not replace those compiled here."""
-    rk.classify(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925))
-
-
 # Kernels have no way in from Python but through a compiled function.
 @njit()
 def closest_return(section, most_lag):

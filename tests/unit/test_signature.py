@@ -6,7 +6,7 @@ from typing import Annotated, NamedTuple
 import numpy as np
 import pytest
 
-from rocking.kernels.signature import Bytes1, Floats2, Signature, place_of_union
+from rocking.kernels.signature import Bytes1, Floats1, Floats2, Signature, place_of_union
 
 ROW = np.dtype([("time", float), ("side", float)])
 Rows = Annotated[np.ndarray, ROW, 1]
@@ -115,3 +115,28 @@ def test_union_is_found_at_its_place_and_replaced_by_what_is_chosen():
         struct.pack_into(f"={len(value)}d", block, 8 * words, *value)
         assert signature.unpack(block) == value
         assert type(signature.unpack(block)) is kind
+
+
+class Turned(NamedTuple):
+    second: float
+    first: float
+
+
+class Straight(NamedTuple):
+    first: float
+    second: float
+
+
+def test_words_of_another_meaning_have_another_digest():
+    """The digest is a part of the name of the compiled function, which is otherwise called with words that it misreads."""
+    rows = [Annotated[np.ndarray, np.dtype([("a", "f8"), ("b", kind)]), 1] for kind in ("f8", "i8")]
+    kinds = [float, int, bool, Floats1, Floats2, Straight, Turned, tuple[float, float], *rows]
+    found = set()
+    for kind in kinds:
+        for result in (None, float):
+
+            def function(value: kind) -> result:
+                pass
+
+            found.add(Signature(function).digest)
+    assert len(found) == 2 * len(kinds)

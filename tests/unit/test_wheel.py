@@ -1,9 +1,11 @@
-"""The wheel alone, without the repository: its metadata, its machine code, and figures of the paper."""
+"""The wheel alone, without the repository: its metadata, its libraries, and figures of the paper."""
 
 import email
 import os
+import re
 import subprocess
 import sys
+import tarfile
 import tomllib
 import zipfile
 from pathlib import Path
@@ -11,15 +13,12 @@ from pathlib import Path
 import pytest
 from packaging.requirements import Requirement
 
-from rocking.kernels import machine_code
-from rocking.kernels.deferred import import_all
-from rocking.kernels.entry_point import ENTRY_POINTS
+from rocking.kernels.library.processor import CLASSES
 from scripts import wheel as script
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-import_all()
-pytestmark = pytest.mark.xdist_group("wheel")  # it is made once
+pytestmark = [pytest.mark.xdist_group("wheel"), pytest.mark.long]  # it is made once
 
 
 @pytest.fixture(scope="module")
@@ -33,16 +32,13 @@ def wheel(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def run(wheel, tmp_path_factory):
-    """Run Python with the wheel, and with no machine code but its own."""
+    """Run Python with the wheel."""
     folder = tmp_path_factory.mktemp("installed")
     options = ["--no-deps", "--target", folder / "packages"]
     subprocess.run([sys.executable, "-m", "pip", "install", *options, wheel], check=True, capture_output=True)
 
     def run(*command):
-        environment = os.environ | {
-            "PYTHONPATH": str(folder / "packages"),
-            "NUMBA_CACHE_DIR": str(folder / "cache"),
-        }
+        environment = os.environ | {"PYTHONPATH": str(folder / "packages")}
         done = subprocess.run(
             [sys.executable, "-P", *command],
             cwd=folder,
@@ -51,26 +47,12 @@ def run(wheel, tmp_path_factory):
             capture_output=True,
             text=True,
         )
-        assert not list(folder.rglob("cache/**/*.o"))
         return done.stdout
 
     run.folder = folder
     return run
 
 
-def test_platform_tag_names_the_first_glibc_that_has_all_names():
-    """On x86-64 the first version of all was 2.2.5, so only later names count."""
-    first = script.first_versions()
-    assert (first["exp"], first["hypot"], first["sincos"]) == ((2, 2, 5),) * 3
-    assert script.platform_tag({"exp", "sin"}) == "manylinux_2_5_x86_64"
-    assert (
-        script.platform_tag({"exp", "getrandom"}) == "manylinux_2_25_x86_64"
-    )  # its manual: since glibc 2.25
-    with pytest.raises(KeyError):
-        script.platform_tag({"no_such_name"})
-
-
-@pytest.mark.long
 def test_metadata_say_what_is_inside(wheel):
     assert wheel.stat().st_size <= 6_000_000
     with zipfile.ZipFile(wheel) as archive:
@@ -78,15 +60,12 @@ def test_metadata_say_what_is_inside(wheel):
         (folder,) = {name.split("/")[0] for name in names if ".dist-info/" in name}
         tags = email.message_from_bytes(archive.read(f"{folder}/WHEEL"))
         about = email.message_from_bytes(archive.read(f"{folder}/METADATA"))
-        taken = set()
-        for processors in machine_code.CLASSES:
-            place = f"rocking/kernels/library/{machine_code.hash_sources()}-{processors}"
-            found = {name.rpartition("/")[2] for name in names if name.startswith(f"{place}/")}
-            assert found == {f"{name}.o" for name in ENTRY_POINTS}
-            for name in found:
-                taken |= script.imports_of(archive.read(f"{place}/{name}")[machine_code.DIGEST_BYTES :])
-    tag = f"py3-none-{script.platform_tag(taken)}"
-    assert (tags.get_all("Tag"), tags["Root-Is-Purelib"]) == ([tag], "false")
+    classes = [name for name in CLASSES if name.startswith("x86-64")]
+    libraries = {f"rocking/kernels/compiled/kernels-{name}.so" for name in classes}
+    assert {name for name in names if name.endswith(".so")} == libraries
+    tag = f"py3-none-{script.platform_tag(wheel)}"
+    assert re.fullmatch(r"py3-none-manylinux_2_\d\d_x86_64", tag)
+    assert tags.get_all("Tag") == [tag]
     assert wheel.name == f"rocking-{about['Version']}-{tag}.whl"
     assert (about["Name"], about["Requires-Python"]) == ("rocking", PROJECT["requires-python"])
     required = [Requirement(text) for text in about.get_all("Requires-Dist")]
@@ -109,8 +88,6 @@ print("numba" in sys.modules)
 """
 
 
-@pytest.mark.long
-@pytest.mark.skipif(machine_code.processor_class() == "native", reason="the wheel has no machine code for it")
 def test_nothing_is_compiled_and_numba_is_not_loaded(run):
     first, kinds, outcomes, loaded = run("-c", WITHOUT_COMPILER).splitlines()
     assert first == f"{run.folder}/packages/rocking/__init__.py 17 periodic"
@@ -119,7 +96,6 @@ def test_nothing_is_compiled_and_numba_is_not_loaded(run):
     assert loaded == "False"
 
 
-@pytest.mark.long
 def test_the_wheel_alone_draws_the_paper(run):
     run("-m", "rocking", "paper", "1", "2", "--output", "drawn")
     assert sorted(path.name for path in (run.folder / "drawn").glob("*.png")) == [
@@ -131,3 +107,13 @@ def test_the_wheel_alone_draws_the_paper(run):
     assert (package / "records/0111a.smc").exists()
     pages = {path.relative_to(package).as_posix() for path in package.rglob("*.html")}
     assert {"papers/report/page.html", "plot/zoomable_map.html", "explorer/ground_motion/page.html"} <= pages
+
+
+def test_source_distribution_holds_the_backend_and_no_library(tmp_path):
+    code = f"import sys; sys.path.insert(0, 'scripts/backend'); import build_backend; build_backend.build_sdist({str(tmp_path)!r})"
+    subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True, capture_output=True)
+    (made,) = tmp_path.iterdir()
+    with tarfile.open(made) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert {"scripts/backend/build_backend.py", "src/rocking/kernels/library/build.py"} <= names
+    assert not [name for name in names if name.endswith(".so")]

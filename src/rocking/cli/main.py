@@ -1,7 +1,7 @@
 """Entry point of the command `rocking`.
 
-Exit codes: 0 success, 1 internal error, 2 invalid input or not enough memory or disk space, 130 interrupted (Ctrl-C). An error
-is one line on stderr.
+Exit codes: 0 success, 1 internal error, 2 invalid input, not enough memory or disk space, or no compiled kernels, 130 interrupted
+(Ctrl-C). An error is one line on stderr.
 """
 
 from __future__ import annotations
@@ -16,9 +16,6 @@ import warnings
 from pathlib import Path
 from typing import NoReturn
 
-from rocking.cli.output.compile_bar import CompileBar
-from rocking.kernels.waiting import LISTENERS
-
 INTERRUPTED = 130
 LACK = re.compile("can't start new thread|failed to map segment|cannot allocate memory", re.IGNORECASE)
 
@@ -27,13 +24,16 @@ class Terminal(logging.Handler):
     """Logging handler that prints each record as one line on stderr."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Print the message of a record."""
-        print("rocking:", record.getMessage(), file=sys.stderr)
+        """Print the message of a record, and the type and the message of its exception."""
+        message = record.getMessage()
+        if record.exc_info and (error := record.exc_info[1]) is not None:
+            message += f": {type(error).__name__}: {error}"
+        print("rocking:", " ".join(message.split()), file=sys.stderr)
 
 
 def main() -> NoReturn:
     """Run the command line and exit."""
-    interrupts, bar = [], CompileBar()
+    interrupts: list[bool] = []
     # NumPy needs no threads of its own here. With little memory they hang or fail when it is loaded.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
@@ -51,15 +51,9 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         # A terminal whose encoding lacks Greek letters shows question marks.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
-    if sys.stderr.isatty():
-        log = logging.getLogger("rocking")
-        log.addHandler(Terminal(logging.INFO))
-        log.setLevel(logging.INFO)
-        LISTENERS.append(bar)
-    try:
-        code, message = run()
-    finally:
-        bar.close()
+    if sys.stderr.isatty():  # elsewhere, as in a file, Python prints the traceback too
+        logging.getLogger("rocking").addHandler(Terminal())
+    code, message = run()
     if interrupts or code == INTERRUPTED:
         code, message = INTERRUPTED, "interrupted"
     if message:
@@ -92,8 +86,11 @@ def refused(error: Exception) -> tuple[int, str]:
     """Return the exit code and the message for an error that ended a command."""
     from typer import TyperException
 
+    from rocking.kernels.library import KernelsUnusable
     from rocking.model import FULL, WriteError
 
+    if isinstance(error, KernelsUnusable):
+        return 2, str(error)
     if (lack := lacking(error)) is not None:
         why = str(lack) or "no more memory can be allocated"
         return 2, (

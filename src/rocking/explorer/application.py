@@ -11,14 +11,14 @@ from bokeh.application.handlers.function import FunctionHandler
 from bokeh.document import Document
 
 from rocking.explorer import plane_axes, presets
-from rocking.explorer.compilation import Compilation
 from rocking.explorer.field_readers import WORDS
 from rocking.explorer.ground_motion import GroundSession
 from rocking.explorer.ground_motion import page as ground_page
 from rocking.explorer.server import LocalServer, local_server
 from rocking.explorer.session import Session
 from rocking.explorer.worker_pools import Workers
-from rocking.model import VERSION, Criterion
+from rocking.model import VERSION, Criterion, Harmonic, System
+from rocking.motion import simulate
 from rocking.plot import palette
 from rocking.plot.parts import legend
 
@@ -59,20 +59,23 @@ def serve(port: int = 0) -> LocalServer:
     ------
     OSError
         If the port cannot be opened.
+    ImportError
+        If the compiled kernels cannot be used.
     """
-    workers, compilation = Workers(), Compilation()
+    simulate(System(Harmonic(0.0, period=1.0), 0.0), cycles=1)  # opens the kernels before a page is shown
+    workers = Workers()
 
     def open_visit(document: Document) -> None:
         document.title = "rocking explorer"
         document.template = _text("page.html")  # type: ignore[assignment]  # the type hint lacks the text that the setter accepts
         document.template_variables.update(_page())
-        Session(document, workers, compilation)
+        Session(document, workers)
 
     def open_ground(document: Document) -> None:
         document.title = "rocking explorer: ground motion"
         document.template = ground["template"]  # type: ignore[assignment]  # as above
         document.template_variables.update(ground)
-        GroundSession(document, workers, compilation)
+        GroundSession(document, workers)
 
     ground = _ground_page()
     addresses = {"/": open_visit, GROUND_ADDRESS: open_ground}

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Callable
 from typing import Any, TypeVar
 
-import numpy as np
 from bokeh.document import Document
 
-from rocking.explorer.compilation import Compilation
 from rocking.explorer.page_channel import Link
 from rocking.explorer.worker_pools import Jobs, Workers
 
@@ -20,18 +17,10 @@ BREATH = 0.2
 
 
 class DocumentRenderer:
-    """Document of a session, the jobs that change it, and the entry points that its figures need."""
+    """Document of a session, and the jobs that change it."""
 
-    def __init__(
-        self,
-        document: Document,
-        link: Link,
-        workers: Workers,
-        compilation: Compilation,
-        needed: Sequence[str],
-    ) -> None:
-        self.document, self.link, self.workers, self.compilation = document, link, workers, compilation
-        self.needed = needed
+    def __init__(self, document: Document, link: Link, workers: Workers) -> None:
+        self.document, self.link, self.workers = document, link, workers
         self.jobs = Jobs()
 
     def in_turn(self, act: Callable[[Value], None]) -> Callable[[Value], None]:
@@ -75,11 +64,3 @@ class DocumentRenderer:
         """Return whether the connection is closed. The session is kept for a while, so that the browser can reconnect."""
         session = getattr(self.document.session_context, "session", None)
         return session is not None and session.connection_count == 0
-
-    async def tell_compilation(self, stop: np.ndarray) -> None:
-        """Tell the page what fraction of the machine code is compiled, until all is."""
-        while not self.compilation.may_start(self.needed):
-            share = self.compilation.fraction(self.needed)
-            await self._draw(partial(self.link.send, "compiling", {"share": share}))
-            await asyncio.sleep(BREATH)
-        await self._draw(partial(self.link.send, "compiling", {"share": 1.0}))

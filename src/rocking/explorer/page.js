@@ -9,7 +9,6 @@ function begin(doc) {
   listen("verdict", judge);
   listen("legend", legend);
   listen("progress", progress);
-  listen("compiling", compiling);
   listen("basin", attractors);
   listen("refused", refuse);
   for (const name of ["map", "basin"]) {
@@ -165,17 +164,6 @@ function progress(told) {
   bar.style.opacity = told.done ? 0 : 1;
   bar.style.width = `${100 * told.share}%`;
   document.body.dataset.map = told.done ? "done" : String(told.side);
-}
-
-// Figures wait for their own part of the machine code.
-function compiling({ share }) {
-  const done = share >= 1, waits = Object.keys(models).map(find).filter(plot => plot.dataset.waits !== "");
-  for (const plot of waits) plot.dataset.waits = done ? "" : "Compiling …";
-  if (/^(Compiling )?…$/.test(find("kind").textContent)) find("kind").textContent = done ? "…" : "Compiling …";
-  if (done || !find("map").dataset.waits) return;
-  find("progress").textContent = `Compiling, once for this machine: ${Math.floor(100 * share)} %`;
-  bar.style.opacity = 1;
-  bar.style.width = `${100 * share}%`;
 }
 
 // ---- controls

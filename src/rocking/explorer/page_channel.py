@@ -29,7 +29,6 @@ class Link(DataModel):
     verdict = String(default="")
     legend = String(default="")
     progress = String(default="")
-    compiling = String(default="")
     basin = String(default="")
     saved = Anything()
     refused = String(default="")

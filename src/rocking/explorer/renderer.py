@@ -5,22 +5,19 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable, Sequence
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from attrs import field, frozen
 from bokeh.document import Document
 
 from rocking.explorer import bokeh_figures, figure_data, plane_axes, texts
-from rocking.explorer.compilation import ALL, Compilation
 from rocking.explorer.document_renderer import BREATH, DocumentRenderer
 from rocking.explorer.page_channel import Link
 from rocking.explorer.progressive_map import FIRST, Picture, Plane, Refinement
 from rocking.explorer.view_state import POINTS, Span, ViewState
 from rocking.explorer.worker_pools import Workers
 from rocking.model import MAX_AMPLITUDE, MAX_START, PERIODS, Kind, Verdict
-
-Value = TypeVar("Value")
 
 BASIN_POINTS = 257
 FIRST_HITS = 3e3
@@ -54,8 +51,8 @@ class Part:
 class SessionRenderer(DocumentRenderer):
     """Figures of a document and the jobs that fill them. Results of an earlier selection are discarded."""
 
-    def __init__(self, document: Document, link: Link, workers: Workers, compilation: Compilation) -> None:
-        super().__init__(document, link, workers, compilation, ALL)
+    def __init__(self, document: Document, link: Link, workers: Workers) -> None:
+        super().__init__(document, link, workers)
         self.map, self.basin, self.diagram = (
             bokeh_figures.plane_of_systems(),
             bokeh_figures.plane_of_starts(),
@@ -103,7 +100,6 @@ class SessionRenderer(DocumentRenderer):
 
     async def refine_map(self, shown: ViewState, stop: np.ndarray) -> None:
         """Compute and draw the map, from coarse to fine."""
-        await self.compilation.ready("map", shown)
         plane = Plane(
             ("period", shown.periods),
             ("amplitude", shown.amplitudes),
@@ -126,39 +122,24 @@ class SessionRenderer(DocumentRenderer):
     # one system
 
     async def respond(self, shown: ViewState, stop: np.ndarray) -> None:
-        """Draw all figures of one system at once, then start their refinement.
-
-        While kernels are being compiled, each figure is drawn when its kernels are there.
-        """
-        section, together = figure_data.Section(shown), self.compilation.may_start(ALL)
+        """Draw all figures of one system at once, then start their refinement."""
+        section = figure_data.Section(shown)
         async with asyncio.TaskGroup() as group:  # if one of them fails, the others end
-            verdict = group.create_task(self._soon("verdict", shown, partial(figure_data.verdict, shown)))
-            basin = group.create_task(self._soon("basin", shown, partial(self._first_basin, shown, stop)))
+            verdict = group.create_task(self.workers.soon(partial(figure_data.verdict, shown)))
+            basin = group.create_task(self.workers.soon(partial(self._first_basin, shown, stop)))
             parts = [
                 self._traces(shown),
                 self._spectrum(shown),
-                self._section(shown, section, verdict if together else None),
+                self._section(section, verdict),
                 self._basin_part(shown, basin),
                 self._verdict(shown, verdict),
             ]
-            tasks = [group.create_task(part if together else self._drawn(part)) for part in parts]
-        if together:
-            await self._draw(partial(self._draw_parts, [task.result() for task in tasks]))
+            tasks = [group.create_task(part) for part in parts]
+        await self._draw(partial(self._draw_parts, [task.result() for task in tasks]))
         self.jobs.start("section", partial(self._grow, section, verdict.result().period))
         self.jobs.start("basin", partial(self._finish_basin, shown, basin.result()[0]))
         if verdict.result().kind is Kind.UNDETERMINED and not figure_data.crowded(shown):
             self.jobs.start("judge", partial(self._judge_longer, shown))
-
-    async def _soon(self, figure: str, shown: ViewState, work: Callable[[], Value]) -> Value:
-        """Run the work of a figure when its machine code is there."""
-        await self.compilation.ready(figure, shown)
-        return await self.workers.soon(work)
-
-    async def _drawn(self, part: Awaitable[Part]) -> Part:
-        """Draw a part when it is computed."""
-        found = await part
-        await self._draw(partial(self._draw_parts, [found]))
-        return found
 
     def _draw_parts(self, parts: Sequence[Part]) -> None:
         self.link.draw(**{name: drawn for part in parts for name, drawn in part.figures.items()})
@@ -166,23 +147,21 @@ class SessionRenderer(DocumentRenderer):
             part.tell()
 
     async def _traces(self, shown: ViewState) -> Part:
-        found = await self._soon("motion", shown, partial(figure_data.traces, shown))
+        found = await self.workers.soon(partial(figure_data.traces, shown))
         history = {"ranges": found.spans["history"], "line": found.history}
         portrait = {"ranges": found.spans["portrait"], "line": found.portrait, "hits": found.hits}
         return Part({"history": history, "portrait": portrait})
 
     async def _spectrum(self, shown: ViewState) -> Part:
-        found = await self._soon("spectrum", shown, partial(figure_data.spectrum, shown))
+        found = await self.workers.soon(partial(figure_data.spectrum, shown))
         return Part(
             {"spectrum": {"ranges": found.ranges, "line": found.line, "names": found.names, "why": found.why}}
         )
 
-    async def _section(
-        self, shown: ViewState, section: figure_data.Section, verdict: Awaitable[Verdict] | None
-    ) -> Part:
-        """Return the first points; those of the periodic orbit are marked if a verdict is given."""
-        await self._soon("section", shown, partial(section.grow, GROWTH[0]))
-        period = (await verdict).period if verdict else None
+    async def _section(self, section: figure_data.Section, verdict: Awaitable[Verdict]) -> Part:
+        """Return the first points; those of a periodic orbit are marked."""
+        await self.workers.soon(partial(section.grow, GROWTH[0]))
+        period = (await verdict).period
         return Part({"section": _drawn_section(await self.workers.soon(partial(section.drawn, period)))})
 
     async def _basin_part(self, shown: ViewState, basin: Awaitable[tuple[Refinement, Picture]]) -> Part:
@@ -235,7 +214,7 @@ class SessionRenderer(DocumentRenderer):
 
     async def refine_basin(self, shown: ViewState, stop: np.ndarray) -> None:
         """Compute and draw the basin map alone, from coarse to fine."""
-        basin, picture = await self._soon("basin", shown, partial(self._first_basin, shown, stop))
+        basin, picture = await self.workers.soon(partial(self._first_basin, shown, stop))
         await self._draw(partial(self._draw_basin, shown, picture))
         await self._finish_basin(shown, basin, stop)
 
@@ -262,9 +241,7 @@ class SessionRenderer(DocumentRenderer):
 
     async def draw_diagram(self, shown: ViewState, stop: np.ndarray) -> None:
         """Draw the orbit diagram along an axis of the map, after the other figures of the selection."""
-        await self.compilation.ready("diagram", shown)
-        if self.compilation.may_start(ALL):
-            await self.jobs.over("response")
+        await self.jobs.over("response")
         columns, ranges = await self.workers.later(partial(figure_data.diagram, shown, stop))
         drawn = {"ranges": ranges, "label": VARIED[shown.vary], "points": columns}
         await self._draw(partial(self.link.draw, diagram=drawn))

@@ -11,7 +11,6 @@ from bokeh.document import Document
 from bokeh.events import Tap
 
 from rocking.explorer import plane_axes, presets, texts
-from rocking.explorer.compilation import ALL, Compilation
 from rocking.explorer.field_readers import Refused, written
 from rocking.explorer.form_fields import address, changed, from_address, in_metres
 from rocking.explorer.page_channel import STRANGE, Link, message
@@ -26,9 +25,9 @@ SYSTEM = ("amplitude", "period", *SHAKEN)
 class Session:
     """Bokeh document with its current view."""
 
-    def __init__(self, document: Document, workers: Workers, compilation: Compilation) -> None:
+    def __init__(self, document: Document, workers: Workers) -> None:
         self.link = Link(name="link")
-        self.painter = SessionRenderer(document, self.link, workers, compilation)
+        self.painter = SessionRenderer(document, self.link, workers)
         self.shown, self.opened = DEFAULT, False
         in_turn = self.painter.in_turn
         hear = in_turn(self.hear)
@@ -114,8 +113,6 @@ class Session:
         if differs("angles", "velocities"):
             painter.place_basin(new)
         painter.mark(new)
-        if first and not painter.compilation.may_start(ALL):
-            jobs.start("compile", painter.tell_compilation)
         mapped = differs("periods", "amplitudes", *SHAKEN)
         moved = differs(*SYSTEM, "first", "cycles", "height", "width")
         started = moved or differs("angles", "velocities")

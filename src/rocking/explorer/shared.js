@@ -54,9 +54,6 @@ const parts = told => (told instanceof Map ? [...told] : Object.entries(told));
 let answers = {}; // results of a figure that are not drawn, by its name: at each point of a map, and all points of a section
 
 function draw(drawn) {
-  for (const [name, told] of parts(drawn)) {
-    if (parts(told).some(([part]) => ["image", "line", "points", "dense"].includes(part))) find(name).dataset.waits = "";
-  }
   for (const [name, told] of parts(drawn)) if (models[name]) for (const [part, value] of parts(told)) fill(name, part, value);
   if (parts(drawn).some(([name]) => name === "history")) scene();
   read();

@@ -9,17 +9,11 @@ from rocking.kernels.classify.results import ResultArrays, empty_results, judgem
 from rocking.kernels.classify.workspace import Workspace, make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.forcing.parameters import (
-    FullHarmonicParameters,
-    HarmonicParameters,
-    PeriodicParameters,
-    parameters_of_row,
-    row_of,
-)
+from rocking.kernels.forcing.parameters import PeriodicParameters, parameters_of_row, row_of
 from rocking.kernels.forcing.periodic import with_row
 from rocking.kernels.lanes.scheduler import MIN_LANE_PERIOD, classify_batch_lanes
 from rocking.kernels.lanes.workspace import make_lane_workspace
-from rocking.kernels.machine_code import CLASSES, processor_class
+from rocking.kernels.library.load import library_class
 from rocking.kernels.signature import Floats2, Integers1
 
 # Version of the results. It is raised whenever a result for the same request may change, so that a store
@@ -60,8 +54,8 @@ def classify_one(p, angle, velocity, max_cycles, max_period):
 
 
 def has_simd():
-    """Return whether this processor adds products of four numbers at a time, or more; on others lanes gain nothing."""
-    return processor_class() in CLASSES
+    """Return whether the library adds products of four numbers at a time, or more; without this, lanes gain nothing."""
+    return library_class() in ("x86-64-v4", "x86-64-v3")
 
 
 def lane_masks(systems):
@@ -110,15 +104,3 @@ def classify_batch(systems, starts, max_cycles, max_period, stop):
         for whole, found in zip(answers, some, strict=True):
             whole[part] = found
     return answers
-
-
-def kind_of(full):
-    """Return the type of the parameters of blocks that follow the full equation of motion, or of slender ones."""
-    return FullHarmonicParameters if full else HarmonicParameters
-
-
-def load_kernels(full):
-    """Load or compile the kernels of ``classify_batch``, for blocks of the full equation of motion or for slender ones."""
-    classify_batch_scalar[kind_of(full)].load()
-    if not full and has_simd():
-        classify_batch_lanes.load()

@@ -13,6 +13,8 @@ KERNEL = dict(
 INTERNAL = dict(KERNEL, no_cpython_wrapper=True)
 KERNEL_INLINE = dict(KERNEL, forceinline=True)
 INTERNAL_INLINE = dict(INTERNAL, forceinline=True)
-# The compiler optimises a callee again in each caller. A short kernel between a caller and the march is
-# inlined as syntax instead, before that step.
-AST_INLINE = dict(INTERNAL, inline="always")
+# Kernels that are called seldom stay functions. In the body of a caller they would take registers from what runs always.
+SELDOM = dict(KERNEL, seldom=True)
+# Entry points that run long. Each is optimised in a module of its own, where what it alone calls becomes part of its body. The
+# lanes need this: in the module of the other kernels their small functions are not inlined.
+LONG = dict(KERNEL, long=True)

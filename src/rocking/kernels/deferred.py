@@ -1,4 +1,4 @@
-"""Kernels that wait for their compiler: numba is imported only where something has to be compiled."""
+"""Kernels that are not compiled yet: numba is imported only where something has to be compiled."""
 
 import importlib
 import pkgutil
@@ -9,8 +9,8 @@ from typing import Any
 
 # Names of modules that define or call kernels and still hold them uncompiled.
 UNBOUND: set[str] = set()
-# Modules without kernels, which import numba or start builders.
-NOT_KERNELS = ("__main__", "compile_missing", "compiler")
+# Modules without kernels, which import numba or compile.
+NOT_KERNELS = ("__main__", "build", "compiler", "emit", "lower")
 
 
 # Functions that have several bodies, by the function that stands for them in compiled code.
@@ -28,7 +28,7 @@ class Kernel:
     @cached_property
     def compiled(self) -> Any:
         """The dispatcher of the compiler."""
-        from rocking.kernels.compiler import dispatcher_of
+        from rocking.kernels.library.compiler import dispatcher_of
 
         return dispatcher_of(self.py_func, self.options)
 
@@ -64,9 +64,9 @@ class Contract:
     @cached_property
     def compiled(self) -> Any:
         """The function for which the compiler takes the body."""
-        from rocking.kernels.compiler import chosen_by_type
+        from rocking.kernels.library.compiler import ChosenByType
 
-        return chosen_by_type(self.function, self.bodies)
+        return ChosenByType(self.function, self.bodies)
 
 
 def contract(function: Callable[..., Any]) -> Contract:

@@ -1,14 +1,13 @@
 """Entry points: kernels that Python calls. Each has one set of types and machine code of its own."""
 
 import ctypes
-import threading
 from collections.abc import Callable
 from functools import cached_property, reduce
 from operator import getitem
 from typing import Any, get_args, get_type_hints
 
-from rocking.kernels import build_processes, machine_code
 from rocking.kernels.deferred import UNBOUND, bind_compiled
+from rocking.kernels.library.load import function_of
 from rocking.kernels.signature import Signature, place_of_union
 
 ENTRY_POINTS: dict[str, "EntryPoint"] = {}
@@ -25,13 +24,14 @@ class EntryPoint:
         chosen: int | None = None,
         kind: type | None = None,
     ) -> None:
-        self.function, self.options, self.chosen, self.kind = function, options, chosen, kind
+        self.function, self.chosen, self.kind = function, chosen, kind
+        self.options = {name: value for name, value in options.items() if name != "long"}
+        self.runs_long = bool(options.get("long"))
         self.name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}"
         if kind is not None:
             self.name += f".{kind.__name__}"
         self.__doc__ = function.__doc__
         self._run: Callable[[int], None] | None = None
-        self._lock = threading.Lock()
         if self.name in ENTRY_POINTS:
             raise ValueError(f"two entry points have the name {self.name}")
         ENTRY_POINTS[self.name] = self
@@ -42,27 +42,22 @@ class EntryPoint:
         """Types of its arguments and of its result."""
         return Signature(self.function, self.chosen)
 
-    def compile(self) -> bytes:
-        """Compile it in this process, and return its object file."""
-        from rocking.kernels.compiler import compile_entry
+    @cached_property
+    def symbol(self) -> str:
+        """Name of its function in the library. Code for words of another meaning has another name, so it is never called."""
+        return f"rocking_{self.name.replace('.', '_')}_{self.signature.digest}"
+
+    def lower(self) -> Any:
+        """Return its code before optimisation, by the compiler."""
+        from rocking.kernels.library.compiler import compile_entry
 
         bind_compiled()
         return compile_entry(self.name, self.function, self.signature, self.options)
 
-    @property
-    def is_loaded(self) -> bool:
-        """True if this process has loaded the machine code."""
-        return self._run is not None
-
     def load(self) -> Callable[[int], None]:
-        """Load the machine code, and wait until it is compiled if it is not."""
-        with self._lock:
-            if self._run is None:
-                code = (
-                    machine_code.read(self.name) or build_processes.request_code(self.name) or self.compile()
-                )
-                address = machine_code.loader().load(code, machine_code.symbol_of(self.name))
-                self._run = ctypes.CFUNCTYPE(None, ctypes.c_int64)(address)
+        """Return the compiled function, from the library."""
+        if self._run is None:
+            self._run = function_of(self.symbol)
         return self._run
 
     def __call__(self, *arguments: Any) -> Any:
@@ -91,11 +86,6 @@ class Choice:
     def __getitem__(self, kind: type) -> EntryPoint:
         """Return the entry point for one type."""
         return self._rows[kind]
-
-    def load(self) -> None:
-        """Load the machine code for all types."""
-        for entry in self._rows.values():
-            entry.load()
 
 
 def entry_point(**options: Any) -> Callable[[Callable[..., Any]], Any]:

@@ -5,6 +5,7 @@ are unions, the same member is chosen of each: all unions of an entry point list
 """
 
 import ctypes
+import hashlib
 import struct
 from collections.abc import Callable, Iterator
 from itertools import chain
@@ -82,6 +83,17 @@ def codes_of(kind: Any) -> str:
     return "".join(map(codes_of, kind.types)) if isinstance(kind, Fields) else CODES[kind]
 
 
+def text_of(kind: Any) -> str:
+    """Return a text that differs for types whose words have another meaning."""
+    if isinstance(kind, Array):
+        return f"{kind.dtype.str}{kind.dtype.descr}{kind.dimensions}"
+    if not isinstance(kind, Fields):
+        return str(getattr(kind, "__name__", kind))
+    names = getattr(kind.kind, "_fields", range(len(kind.types)))
+    parts = (f"{name}:{text_of(part)}" for name, part in zip(names, kind.types, strict=True))
+    return f"{kind.kind.__name__}({','.join(parts)})"
+
+
 def address_of(array: np.ndarray) -> int:
     """Return the address of an array."""
     try:
@@ -140,6 +152,12 @@ class Signature:
     def offset(self) -> int:
         """Number of words of the arguments; those of the result follow."""
         return self._taken.size // 8
+
+    @property
+    def digest(self) -> str:
+        """Digits that differ for signatures whose words have another meaning."""
+        text = f"{text_of(self.arguments)} -> {text_of(self.result)}"
+        return hashlib.sha256(text.encode()).hexdigest()[:8]
 
     def pack(self, arguments: tuple[Any, ...]) -> bytearray:
         """Write the words of the arguments, with room for those of the result behind them."""

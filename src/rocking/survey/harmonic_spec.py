@@ -51,11 +51,6 @@ class Points(NamedTuple):
         """Mask of the undamped points (e = 1)."""
         return np.asarray(self.systems[:, SYSTEM.index("restitution")] == 1.0)
 
-    @property
-    def full(self) -> bool:
-        """True if the blocks follow the full equation of motion."""
-        return bool((self.systems[:, SYSTEM.index("critical_angle")] > 0.0).any())
-
 
 @frozen(eq=False)
 class HarmonicSpec(SurveySpec):

@@ -51,9 +51,6 @@ class Measurement:
     judge : callable
         (inputs, options, stop) → one array (n,) per variable, by name. A pure function of the inputs of the points,
         defined in a module so that other processes can import it. Returns None if another thread sets `stop[0]`.
-    compile : callable
-        Function that compiles or loads the kernels of `judge`. Its argument states whether the blocks follow the full
-        equation of motion.
     variables : tuple of Variable
         Variables; the last one is written last and so marks a point as complete.
     options : dict
@@ -66,7 +63,6 @@ class Measurement:
 
     title: str
     judge: Callable[[Any, Mapping[str, int], np.ndarray], Arrays | None]
-    compile: Callable[[bool], None]
     variables: tuple[Variable, ...]
     options: dict[str, int]
     method: int

@@ -30,7 +30,7 @@ from rocking.model import (
 )
 from rocking.survey.engine.tile_loop import engine
 from rocking.survey.measurement import Arrays
-from rocking.survey.measures.ending import CERTIFIED, OVERTURNED, VARIABLES, answers, load_kernels, sampled
+from rocking.survey.measures.ending import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled
 from rocking.survey.motion_spec import MAX_LEVEL
 from rocking.survey.spec import axis
 
@@ -148,7 +148,6 @@ def overturning_set(
     if executor is not None:
         instance("executor", executor, Executor)
     full = one_of("model", model, MODELS) == "full"
-    load_kernels(full)
     work = [
         Work(motion, measure, value, block, angle, float(polarity), full)
         for motion, value in zip(chosen, values.tolist(), strict=True)

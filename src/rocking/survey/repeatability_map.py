@@ -111,7 +111,7 @@ def repeatability_map(
         "samples": whole("samples", samples, 2, MAX_AT_A_POINT),
         "relative_millionths": off,
     }
-    measure = Measurement(TITLE, judge, batch.load_kernels, VARIABLES, options, batch.METHOD)
+    measure = Measurement(TITLE, judge, VARIABLES, options, batch.METHOD)
     found = run_survey(asked, measure, store, executor, progress=progress, repair=repair).load()
     found.attrs["relative"] = off * MILLIONTH
     runs = {

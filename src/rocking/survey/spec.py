@@ -36,11 +36,6 @@ class SurveySpec:
         """Total number of points."""
         return math.prod(self.shape)
 
-    @property
-    def full(self) -> bool:
-        """Flag: the blocks follow the full equation of motion."""
-        return False
-
     def with_axes(self: Spec, axes: dict[str, np.ndarray]) -> Spec:
         """Return the survey over other axes of the same names, such as those of a tile."""
         return evolve(self, axes=axes)

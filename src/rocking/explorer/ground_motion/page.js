@@ -9,7 +9,6 @@ function begin(doc) {
   listen("shown", show);
   listen("verdict", verdict);
   listen("legend", legend);
-  listen("compiling", compiling);
   listen("refused", refused);
   for (const range of [models.map.x_range, models.map.y_range]) {
     range.properties.start.change.connect(moved);
@@ -198,17 +197,6 @@ function legend(told) {
   bar.style.opacity = told.done ? 0 : 1;
   bar.style.width = `${100 * share}%`;
   document.body.dataset.map = told.done ? "done" : String(told.side);
-}
-
-// Figures wait for their own part of the machine code.
-function compiling({ share }) {
-  const done = share >= 1;
-  for (const plot of ["map", "history", "base"].map(find)) if (plot.dataset.waits !== "") plot.dataset.waits = done ? "" : "Compiling …";
-  if (/^(Compiling )?…$/.test(find("kind").textContent)) find("kind").textContent = done ? "…" : "Compiling …";
-  if (done || !find("map").dataset.waits) return;
-  find("progress").textContent = `Compiling, once for this machine: ${Math.floor(100 * share)} %`;
-  bar.style.opacity = 1;
-  bar.style.width = `${100 * share}%`;
 }
 
 // ---- the animation, seen from the base

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from rocking.explorer.compilation import needed_by_ground
 from rocking.explorer.document_renderer import DocumentRenderer
 from rocking.explorer.ground_motion import figures
 from rocking.explorer.ground_motion.block_motion import BlockMotion, block_motion, no_motion
@@ -53,7 +52,6 @@ class GroundRenderer(DocumentRenderer):
 
     async def refine_map(self, shown: GroundView, stop: np.ndarray) -> None:
         """Compute and draw the map, from coarse to fine."""
-        await self.compilation.stored(needed_by_ground("map", shown.model))
         self.finest = None
         ground, plane = self.ground, SizePlane(shown.sizes, shown.angles)
         endings = await self.workers.soon(partial(BlockEndings, ground.base, shown.scale, shown.model))
@@ -88,7 +86,6 @@ class GroundRenderer(DocumentRenderer):
 
     async def draw_motion(self, shown: GroundView, stop: np.ndarray) -> None:
         """Draw the motion of the selected block and tell its verdict."""
-        await self.compilation.stored(needed_by_ground("motion", shown.model))
         try:
             found = await self.workers.soon(partial(block_motion, shown, self.ground))
         except TooManyEvents as error:

@@ -12,7 +12,6 @@ import numpy as np
 from bokeh.document import Document
 from bokeh.events import Tap
 
-from rocking.explorer.compilation import GROUND_ALL, Compilation
 from rocking.explorer.field_readers import Refused, written
 from rocking.explorer.ground_motion.ground import Ground, ground_of, open_file, read_file
 from rocking.explorer.ground_motion.renderer import GroundRenderer
@@ -34,9 +33,9 @@ LOST = "the link shows a file, which is not part of the link: choose the file ag
 class GroundSession:
     """Bokeh document with its current view, and the file that it shows."""
 
-    def __init__(self, document: Document, workers: Workers, compilation: Compilation) -> None:
+    def __init__(self, document: Document, workers: Workers) -> None:
         self.link = Link(name="link")
-        self.renderer = GroundRenderer(document, self.link, workers, compilation, GROUND_ALL)
+        self.renderer = GroundRenderer(document, self.link, workers)
         self.shown, self.opened = DEFAULT, False
         self.file: tuple[str, bytes] | None = None
         self.pending: GroundView | None = None  # view of the file, until it is read
@@ -139,8 +138,6 @@ class GroundSession:
         old, first = self.shown, not self.opened
         self.shown, self.opened = new, True
         renderer, jobs = self.renderer, self.renderer.jobs
-        if first and not renderer.compilation.may_start(GROUND_ALL):
-            jobs.start("compile", renderer.tell_compilation)
         shaken = first or ground is not None or (old.shaking, old.scale) != (new.shaking, new.scale)
         if ground is not None:
             renderer.ground = ground

@@ -61,7 +61,7 @@ from rocking.kernels.classify.verdict_record import (
     unsettled,
 )
 from rocking.kernels.classify.workspace import LEG
-from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import DONE
 from rocking.kernels.numerics.elementary import size
@@ -209,7 +209,7 @@ def stands_still(p, case, over, max_period, workspace):
     return converged and is_stationary(workspace.section, run.count, max_period)
 
 
-@njit(**AST_INLINE)
+@njit(**INTERNAL_INLINE)
 def seek_orbit(p, case, target, max_period, workspace, still):
     """Test whether the motion has reached a periodic orbit; ``still`` allows a neutral one.
 
@@ -261,7 +261,7 @@ def end_of_budget(p, case, target, max_period, workspace):
     return unsettled(p, run.tracker, case.work, target, workspace.batches, findings)
 
 
-@njit(**AST_INLINE)
+@njit(**INTERNAL_INLINE)
 def evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace):
     """Evaluate a motion at a checkpoint, after a march that ended with ``status``.
 
@@ -303,7 +303,7 @@ def evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace)
     return undecided(case.run.tracker), case
 
 
-@njit(**AST_INLINE)
+@njit(**INTERNAL_INLINE)
 def judge(p, angle, velocity, max_cycles, max_period, workspace):
     """Classify a motion from (angle, velocity) within ``max_cycles`` forcing cycles.
 

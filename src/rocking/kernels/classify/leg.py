@@ -6,7 +6,7 @@ from rocking.kernels.classify.classifier_state import Run
 from rocking.kernels.classify.lazy_section import append_lazy_rows
 from rocking.kernels.classify.quasi_periodicity import collect, section_needed
 from rocking.kernels.classify.reset import follow, moved_on
-from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import DONE, PAUSED, RELEASED, march_on
 from rocking.kernels.march.progress import Recording
@@ -39,7 +39,7 @@ def make_room(section, count, coming, most_rows):
     return kept
 
 
-@njit(**AST_INLINE)
+@njit(**INTERNAL_INLINE)
 def follow_flights(p, run, target, most, workspace, wanted):
     """March an undamped motion to the end of cycle ``target`` and collect its arcs between impacts.
 
@@ -66,7 +66,7 @@ def follow_flights(p, run, target, most, workspace, wanted):
             return status, Run(moved_on(tracker, progress), flights, section_time, count, lossless, measuring)
 
 
-@njit(**AST_INLINE)
+@njit(**INTERNAL_INLINE)
 def march_leg(p, run, max_cycles, target, workspace):
     """March a motion to the end of cycle ``target``, with its last states.
 

@@ -7,7 +7,7 @@ from rocking.kernels.classify.approach import departure
 from rocking.kernels.classify.lazy_section import evaluate_lazy_rows
 from rocking.kernels.classify.least_period import SAME, least_period
 from rocking.kernels.classify.recurrence import approached, closest_return
-from rocking.kernels.compile_options import AST_INLINE, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.contract import largest_on
 from rocking.kernels.forcing.periodic import later, nearest_mode
@@ -156,7 +156,7 @@ def refined_candidate(candidate, found, period):
     return Candidate(period, candidate.row, guess, UNBOUNDED, math.inf, candidate.mode)
 
 
-@njit(**AST_INLINE)
+@njit(**INTERNAL_INLINE)
 def orbit_near(clocked, candidate, workspace):
     """Return the orbit that Newton's method finds from a candidate, as a check without a result yet."""
     lag, mode, symmetric, peak = candidate.lag, candidate.mode, False, math.nan
@@ -196,7 +196,7 @@ def compare_to_second_order(p, clocked, candidate, found, workspace):
     return Comparison(REACHED if excess <= 1.0 else NOT_YET, away, excess, coming, work)
 
 
-@njit(**AST_INLINE)
+@njit(**INTERNAL_INLINE)
 def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neutral):
     """Compare a motion with the periodic orbit that its last states approach.
 

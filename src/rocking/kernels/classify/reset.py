@@ -6,7 +6,7 @@ A release is either of the two. It follows rest or sustained contact with a brac
 import math
 from typing import NamedTuple
 
-from rocking.kernels.compile_options import AST_INLINE, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.march.march import PAUSED, RELEASED, march_on
@@ -163,7 +163,7 @@ def at_release(p, tracker, progress):
     return ResetTracker(restarted, base, brace, half_periods, impacts, brace_hits, visit.peak, peak)
 
 
-@njit(**AST_INLINE)
+@njit(**INTERNAL_INLINE)
 def follow(p, tracker, target, most_events, section_time, section, tangent, nothing):
     """March a motion to the end of cycle ``target``, or to the release that decides.
 

@@ -17,7 +17,7 @@ from rocking.kernels.classify.reset import begin_tangent
 from rocking.kernels.classify.results import ResultArrays, store_result
 from rocking.kernels.classify.verdict_record import OPEN
 from rocking.kernels.classify.workspace import LEG
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, LONG
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
@@ -216,7 +216,7 @@ def run_lanes(s, flights, log, braced, stop):
             return
 
 
-@entry_point(**KERNEL)
+@entry_point(**LONG)
 def classify_batch_lanes(
     systems: Floats2,
     starts: Floats2,

@@ -3,7 +3,6 @@
 from typing import Annotated, NamedTuple
 
 import numpy as np
-from llvmlite import ir
 
 from rocking.kernels.classify.workspace import Workspace, make_workspace
 from rocking.kernels.compile_options import INTERNAL
@@ -18,6 +17,7 @@ from rocking.kernels.signature import Bytes1, Floats1, Floats2, Floats3
 @intrinsic
 def prefetch_for_write(typingctx, address):
     """Prefetch the cache line at an address for writing. The processor ignores invalid addresses."""
+    from llvmlite import ir
     from numba import types
 
     def generate(context, builder, signature, arguments):
@@ -65,6 +65,8 @@ def load_work(typingctx, address, lane, like):
 
 def work_place(context, builder, work, arguments):
     """Return the code of the address of the work item of a lane. ValueError: if it is longer than WORK_BYTES."""
+    from llvmlite import ir
+
     kind = context.get_value_type(work)
     size = context.get_abi_sizeof(kind)
     if size > WORK_BYTES:

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import numpy as np
 
-from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.compile_options import KERNEL, LONG
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.forcing.finite import to_end, with_pulse, with_run
 from rocking.kernels.forcing.parameters import (
@@ -42,7 +42,7 @@ def run_to_end(p: FiniteParameters, angle: float, velocity: float, until: float)
     return to_end(p, angle, velocity, until, False, False)
 
 
-@entry_point(**KERNEL)
+@entry_point(**LONG)
 def run_batch(p: AnySampledParameters, runs: Runs, want_peak: bool, rows: Endings, stop: Integers1) -> bool:
     """Follow the motion of each of ``runs`` under the samples of ``p``, and write its row of ``rows``.
 
@@ -57,7 +57,7 @@ def run_batch(p: AnySampledParameters, runs: Runs, want_peak: bool, rows: Ending
     return True
 
 
-@entry_point(**KERNEL)
+@entry_point(**LONG)
 def run_pulses(
     kind: AnyPulseParameters, pulses: Pulses, want_peak: bool, rows: Endings, stop: Integers1
 ) -> bool:

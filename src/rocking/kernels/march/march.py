@@ -7,7 +7,7 @@ run. Sections lie inside arcs and do not interrupt them.
 import math
 from enum import IntEnum
 
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, LONG
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
@@ -249,7 +249,7 @@ def march_through(p, progress, cycles, recording, state):
             return status, progress
 
 
-@entry_point(**KERNEL)
+@entry_point(**LONG)
 def march_plain(
     p: SystemParameters, progress: Progress, cycles: int, recording: Recording, state: TangentState
 ) -> tuple[int, Progress, int, int]:

@@ -8,7 +8,6 @@ these differences are formed by subtraction.
 import math
 
 import numpy as np
-from llvmlite import ir
 
 from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import intrinsic, njit
@@ -85,6 +84,7 @@ def choose(typingctx, condition, yes, no):
 @intrinsic
 def bits_of(typingctx, x):
     """Return the bits of a number as an integer."""
+    from llvmlite import ir
     from numba import types
 
     def generate(context, builder, signature, arguments):
@@ -96,6 +96,7 @@ def bits_of(typingctx, x):
 @intrinsic
 def from_bits(typingctx, n):
     """Return the number with the given bits."""
+    from llvmlite import ir
     from numba import types
 
     def generate(context, builder, signature, arguments):

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.parameters import PeriodicParameters
 from rocking.kernels.march.initial_state import begin
@@ -146,7 +146,7 @@ def newton_correction(tangent, sign, missed):
     return (to_angle, to_velocity), RESIDUAL * max(1.0, abs(a), abs(b), abs(c), abs(d))
 
 
-@njit(**AST_INLINE)
+@njit(**INTERNAL_INLINE)
 def find_fixed_point(mapping, guess, most_work, patience, columns, nothing):
     """Find a fixed point of a map by Newton's method, until the residual is at most RESIDUAL.
 

@@ -52,8 +52,6 @@ def run_survey(
 
 
 def _carry_out(results: Memory | Store, executor: Executor | None, progress: bool, interrupted: str) -> None:
-    # Compile before other threads start: a process that ends while one of them compiles may crash.
-    results.measure.compile(results.asked.full)
     with _noted(f"The survey was interrupted; {interrupted}."):
         if not progress:
             run(results, executor)

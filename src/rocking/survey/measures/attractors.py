@@ -11,7 +11,7 @@ import numpy as np
 from rocking.kernels import batch
 from rocking.kernels.classify import attractor_anchor as kernel
 from rocking.kernels.classify import verdict_record
-from rocking.model import NO_BRACES, Attractor, Harmonic, Kind, State, System, Verdict, quantities, system_of
+from rocking.model import NO_BRACES, Attractor, Kind, State, System, Verdict, quantities, system_of
 from rocking.motion import simulate
 from rocking.response import budget, classify
 from rocking.survey.harmonic_spec import Points, points
@@ -68,15 +68,7 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
         by_name["transient"],
         by_name["cycles"],
     )
-    return Measurement(title, judge, load_kernels, variables, budget(max_cycles, max_period), batch.METHOD)
-
-
-def load_kernels(full: bool) -> None:
-    """Load or compile the classification and the functions that follow orbits."""
-    batch.load_kernels(full)
-    kernel.anchor_each[batch.kind_of(full)].load()
-    still = System(Harmonic(0.0, period=1.0), 0.0, critical_angle=0.1 if full else None)
-    simulate(still, cycles=1, record="section")
+    return Measurement(title, judge, variables, budget(max_cycles, max_period), batch.METHOD)
 
 
 def classify_with_anchor(

@@ -11,7 +11,7 @@ from rocking.kernels.march import finite_runs
 from rocking.model import GroundMotion, Pulse, RecordSet
 from rocking.survey.measurement import Arrays
 from rocking.survey.measures import pulse_ending
-from rocking.survey.measures.ending import answers, judge, load_kernels
+from rocking.survey.measures.ending import answers, judge
 from rocking.survey.motion_spec import motion_question
 
 WITH_PEAK = {"with_peak": 1}
@@ -38,10 +38,6 @@ class BlockEndings:
         motion = base if isinstance(base, GroundMotion) else _samples(base)
         given = {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "scale": scale}
         self.asked = motion_question(RecordSet(motion), given, intensity="scale", model=model)
-
-    def load(self) -> None:
-        """Compile or load the kernels of `at`."""
-        (load_kernels if self.pulse is None else pulse_ending.load_kernels)(self.asked.full)
 
     def at(self, size: np.ndarray, slenderness: np.ndarray, stop: np.ndarray) -> Arrays | None:
         """Return outcome, certified, peak, margin and impacts at n points; None if another thread sets `stop` (1,).

@@ -80,14 +80,7 @@ VARIABLES = (
 
 def ending(title: str, *, with_peak: bool = True) -> Measurement:
     """Return the measurement of the end of a motion; without the peak, which is then NaN, it takes half the time."""
-    return Measurement(
-        title, judge, load_kernels, VARIABLES, {"with_peak": int(with_peak)}, METHOD, shares="outcome"
-    )
-
-
-def load_kernels(full: bool) -> None:
-    """Compile or load the kernels of `judge`."""
-    kernel.run_batch[numbers.FullSampledParameters if full else numbers.SampledParameters].load()
+    return Measurement(title, judge, VARIABLES, {"with_peak": int(with_peak)}, METHOD, shares="outcome")
 
 
 def judge(runs: Runs, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:

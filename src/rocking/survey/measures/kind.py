@@ -19,9 +19,7 @@ KIND = VARIABLES[0]
 
 def outcome(max_cycles: int, max_period: int, title: str) -> Measurement:
     """Return the measurement of the kind of response, as classified by `classify`."""
-    return Measurement(
-        title, judge, batch.load_kernels, (KIND,), budget(max_cycles, max_period), batch.METHOD
-    )
+    return Measurement(title, judge, (KIND,), budget(max_cycles, max_period), batch.METHOD)
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:

@@ -13,19 +13,12 @@ from rocking.kernels.march import finite_runs as kernel
 from rocking.model import SINES, Pulse
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.measures.ending import METHOD, VARIABLES, answers, sampled
-from rocking.survey.measures.ending import load_kernels as load_sampled
 from rocking.survey.pulse_spec import Pulses
 
 
 def pulse_ending(title: str) -> Measurement:
     """Return the measurement of the end of a motion under a pulse."""
-    return Measurement(title, judge, load_kernels, VARIABLES, {}, METHOD, shares="outcome")
-
-
-def load_kernels(full: bool) -> None:
-    """Compile or load the kernels of `judge`."""
-    load_sampled(full)
-    kernel.run_pulses[numbers.FullPulseParameters if full else numbers.PulseParameters].load()
+    return Measurement(title, judge, VARIABLES, {}, METHOD, shares="outcome")
 
 
 def judge(runs: Pulses, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:

@@ -99,9 +99,7 @@ VARIABLES = (
 
 def response(max_cycles: int, max_period: int, title: str) -> Measurement:
     """Return the measurement of the verdict of `classify` at each point."""
-    return Measurement(
-        title, judge, batch.load_kernels, VARIABLES, budget(max_cycles, max_period), batch.METHOD
-    )
+    return Measurement(title, judge, VARIABLES, budget(max_cycles, max_period), batch.METHOD)
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
@@ -119,7 +117,7 @@ def classify_points(
 ) -> Arrays | None:
     """Return the variables of a map at n points; None if another thread sets `stop` (1,).
 
-    `values` (n,) and `fixed` hold the quantities by name. They are not checked, and kernels must have been compiled.
+    `values` (n,) and `fixed` hold the quantities by name. They are not checked.
     """
     return judge(points(values, fixed), {"max_cycles": max_cycles, "max_period": max_period}, stop)
 

@@ -26,7 +26,6 @@ def sampled(
     """Return the results of a measurement at points, in their order; with a progress bar if they are ``shown_as`` something."""
     if executor is not None:
         instance("executor", executor, Executor)
-    measure.compile(points.full)
     total = len(points.systems)
     with engine(executor) as (pool, stop), counted(shown_as, total) as add:
         futures = []

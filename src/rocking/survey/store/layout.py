@@ -88,7 +88,7 @@ def described_layout(layout: Layout) -> dict[str, Any]:
 
 def fingerprint(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
     """Return the properties that must agree to resume a store, and the version and processor that made it."""
-    import llvmlite.binding as llvm
+    from rocking.kernels.library import processor_class
 
     return {
         "survey": measure.title,
@@ -98,7 +98,7 @@ def fingerprint(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
         "variables": [each.name for each in measure.variables],
         "method": measure.method,
         "format": FORMAT,
-        "made_by": {"version": VERSION, "processor": llvm.get_host_cpu_name()},
+        "made_by": {"version": VERSION, "processor": processor_class()},
     }
 
 

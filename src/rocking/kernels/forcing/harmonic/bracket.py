@@ -8,7 +8,7 @@ wide margin, it is UNSURE and ``first_zero`` decides.
 import math
 from typing import NamedTuple
 
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE, SELDOM
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.acceleration import first_sign_change, forcing_rates, forcing_term
 from rocking.kernels.forcing.harmonic.solution import exponentials, propagate, propagator_of
@@ -114,7 +114,7 @@ def may_dip_between(p, ends, doubts):
     return may_dip(w, dw, right.w - right_doubt, right.dw + right_doubt, tanh)
 
 
-@njit(**INTERNAL)
+@njit(**SELDOM)
 def bottom(p, arc, left, right, doubt):
     """Find the minimum of w between two jets, as far as needed to decide whether w reaches zero.
 

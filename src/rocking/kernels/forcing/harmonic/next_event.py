@@ -2,7 +2,7 @@
 
 import math
 
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL, KERNEL_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL, KERNEL_INLINE, SELDOM
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, NONE, REST
 from rocking.kernels.forcing.arc import CROSSING, MAX_ARC_TIME, NEVER, Next
@@ -115,7 +115,7 @@ def next_event(p, mode, arc, guess):
     return coming, propagator_or_none(p, min(coming.wait, MAX_ARC_TIME))
 
 
-@njit(**KERNEL)
+@njit(**SELDOM)
 def any_event(p, mode, arc):
     """Find the next event without a guess."""
     if mode == REST:

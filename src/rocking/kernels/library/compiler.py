@@ -1,17 +1,10 @@
-"""Machine code of entry points, by numba, which is imported only where something is compiled.
+"""Kernels and entry points as numba compiles them; only a process that compiles imports this module."""
 
-Each entry point has private copies of all that it calls. Copies of a shared function differ in their last bits, because each
-is optimised with its callers. Left to itself the linker takes the copy that it met first. A process that compiles would then
-round differently from one that finds all on disk, and the order of calls would decide.
-"""
-
-import inspect
 from collections.abc import Callable
 from typing import Any
 
 import numba
 from llvmlite import ir
-from llvmlite.binding import Linkage
 from numba import types
 from numba.core import cgutils
 from numba.core.ccallback import CFunc
@@ -20,10 +13,8 @@ from numba.core.compiler import Compiler
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.errors import TypingError
 from numba.core.typeconv import Conversion
-from numba.extending import intrinsic, overload
+from numba.extending import intrinsic
 
-from rocking.kernels.compile_options import INTERNAL_INLINE
-from rocking.kernels.machine_code import symbol_of
 from rocking.kernels.signature import Array, Fields, Signature
 
 WORD = ir.IntType(64)
@@ -95,34 +86,49 @@ class Words:
 
 
 class KernelLibrary(JITCodeLibrary):
-    """Optimised code of a kernel. Its machine code is loaded only if the kernel has a wrapper for Python: most have none."""
+    """Code of a kernel before optimisation. What it calls is only noted, and linked once for a whole group of entry points."""
 
-    _added = False
+    stays = False
 
-    def _finalize_final_module(self) -> None:
-        self._finalize_dynamic_globals()
-        self._verify_declare_only_symbols()
-        # Callers do not need the object file. But the last steps towards it change the module, and the march gets 3 % faster.
-        self.object_file = bytes(self._codegen._tm.emit_object(self._final_module))
+    def finalize(self) -> None:
+        """Neither link what the kernel calls, nor optimise, nor emit."""
+        self._raise_if_finalized()
+        for function in self._final_module.functions:
+            if self.stays and not function.is_declaration:
+                function.add_function_attribute("noinline")
         self._finalized = True
 
     def get_pointer_to_function(self, name: str) -> int:
-        """Return the address of a function, for which machine code is made; 0 if there is no such function."""
-        self._ensure_finalized()
-        if all(function.name != name for function in self.get_defined_functions()):
-            return 0
-        if not self._added:
-            self._added = True
-            # A copy, because callers still need the module, and the engine changes it.
-            self._machine_module = self._final_module.clone()
-            self._codegen._add_module(self._machine_module)
-            self._finalize_specific()
-        return super().get_pointer_to_function(name)
+        """Return that there is no such function: Python never runs the kernel."""
+        return 0
 
     @property
     def codegen(self) -> Any:
-        """The code generator; without machine code, an object that ignores the environment of the function."""
-        return self._codegen if self._added else NoEnvironment()
+        """The code generator, as an object that ignores the environment of the function."""
+        return NoEnvironment()
+
+    def parts(self, seen: dict[Any, None]) -> dict[Any, None]:
+        """Add this library, and all libraries that it calls, to those seen, each once."""
+        left = [self]
+        while left:
+            part = left.pop()
+            if part not in seen:
+                seen[part] = None
+                left += part._linking_libraries
+        return seen
+
+    def module(self) -> Any:
+        """Return the module of its code."""
+        return self._final_module
+
+    @property
+    def entry_name(self) -> str:
+        """Name of the function for calls from C."""
+        return next(
+            each.name
+            for each in self._final_module.functions
+            if not each.is_declaration and each.name.startswith("cfunc.")
+        )
 
 
 class NoEnvironment:
@@ -132,59 +138,65 @@ class NoEnvironment:
         """Do nothing: Python never runs the kernel."""
 
 
-class EntryLibrary(KernelLibrary):
-    """Code of one entry point, which takes no function from elsewhere and gives its symbol away alone."""
-
-    symbol = ""
-
-    def _optimize_final_module(self) -> None:
-        for function in [one for one in self._final_module.functions if not one.is_declaration]:
-            if function.name.startswith("cfunc."):
-                function.name = self.symbol
-            else:
-                function.linkage = Linkage.internal
-        # The environments of functions, which nothing uses.
-        for variable in [one for one in self._final_module.global_variables if not one.is_declaration]:
-            variable.linkage = Linkage.internal
-        super()._optimize_final_module()
-
-
 class KernelCompiler(Compiler):
-    """Compiler of kernels."""
-
-    library_class: type[KernelLibrary] = KernelLibrary
+    """Compiler that stops before LLVM."""
 
     def compile_extra(self, func: Callable[..., Any]) -> Any:
         """Compile a function into a library of its own."""
-        self.state.library = self.library_class(self.state.targetctx.codegen(), func.__qualname__)
+        self.state.library = KernelLibrary(self.state.targetctx.codegen(), func.__qualname__)
+        self.state.library.stays = func in SELDOM
         return super().compile_extra(func)
 
 
+SELDOM: set[Callable[..., Any]] = set()
+"""Kernels that stay functions."""
+LOWERING = {"pipeline_class": KernelCompiler, "no_cpython_wrapper": True}
+"""Options of a process that makes a library. Elsewhere kernels are compiled whole, so that tests can call them."""
+_more: dict[str, Any] = {}
+
+
+def stop_before_llvm() -> None:
+    """Let this process lower kernels only; it must have compiled none before."""
+    _more.update(LOWERING)
+
+
 def dispatcher_of(function: Callable[..., Any], options: dict[str, Any]) -> Any:
-    """Return the dispatcher of a kernel."""
-    return numba.njit(pipeline_class=KernelCompiler, **options)(function)
+    """Return the dispatcher of a kernel. numba does not know the option ``seldom``."""
+    if options.get("seldom"):
+        SELDOM.add(function)
+    options = {name: value for name, value in options.items() if name != "seldom"}
+    return numba.njit(**options | _more)(function)
 
 
-def chosen_by_type(stub: Callable[..., Any], bodies: dict[type, Any]) -> Callable[..., Any]:
-    """Return a function that stands for one of several kernels in compiled code, by the type of its first argument."""
-    parameters = inspect.signature(stub)
-    names = ", ".join(parameters.parameters)
+class ChosenByType:
+    """Dispatcher that stands for one of several kernels in compiled code, by the type of its first argument.
 
-    def choose(p: types.NamedTuple, *_: types.Type) -> Callable[..., Any]:
-        scope = {"body": bodies[p.instance_class].compiled}
-        exec(f"def forward({names}):\n    return body({names})", scope)
-        return scope["forward"]
+    It has what numba asks of a dispatcher when it types and lowers a call, and no more.
+    """
 
-    choose.__signature__ = parameters  # type: ignore[attr-defined]
-    overload(stub, jit_options=dict(INTERNAL_INLINE, pipeline_class=KernelCompiler))(choose)
-    return stub
+    is_compiling = False
+
+    def __init__(self, stub: Callable[..., Any], bodies: dict[type, Any]) -> None:
+        self.__name__, self.py_func, self.bodies = stub.__name__, stub, bodies
+        self._numba_type_ = types.Dispatcher(self)
+
+    def _body(self, args: Any) -> Any:
+        return self.bodies[args[0].instance_class].compiled
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Return the template of a call of the body."""
+        return self._body(args).get_call_template(args, kws)
+
+    def get_overload(self, args: Any) -> Any:
+        """Return the compiled body."""
+        return self._body(args).get_overload(args)
 
 
 def compile_entry(
     name: str, function: Callable[..., Any], types_of: Signature, options: dict[str, Any]
-) -> bytes:
-    """Compile an entry point: an object file with the function ``machine_code.symbol_of``, which takes the address of a row of words."""
-    kernel = numba.njit(inline="always", pipeline_class=KernelCompiler, **options)(function)
+) -> KernelLibrary:
+    """Lower an entry point to a function that takes the address of a row of words."""
+    kernel = dispatcher_of(function, options | {"forceinline": True})
     arguments, offset = numba_type(types_of.arguments), types_of.offset
     result = types.none if types_of.result is None else numba_type(types_of.result)
 
@@ -216,10 +228,6 @@ def compile_entry(
         f"def run(address):\n    a = load_arguments(address)\n    store_result(address, kernel({names}))",
         scope,
     )
-    library_class = type("SymbolLibrary", (EntryLibrary,), {"symbol": symbol_of(name)})
-    pipeline = type("EntryCompiler", (KernelCompiler,), {"library_class": library_class})
-    made = CFunc(scope["run"], ((types.intp,), types.void), {}, dict(options), pipeline_class=pipeline)
+    made = CFunc(scope["run"], ((types.intp,), types.void), {}, dict(options), pipeline_class=KernelCompiler)
     with global_compiler_lock:
-        library = made._compile_uncached().library
-        library._ensure_finalized()
-        return library.object_file
+        return made._compile_uncached().library
