@@ -100,7 +100,7 @@ else
 fi
 pwd >"$STAMP" # if this is interrupted, the next call goes on with the same .venv
 # pip hides the lines of a build. So the kernels are compiled before it builds the package, and it finds them.
-linker=ziglang # it has one, for machines without a C compiler
+linker=ziglang # this package has a linker, for machines without a C compiler
 for compiler in cc gcc clang; do
     ! command -v "$compiler" >/dev/null || linker=
 done

@@ -1,4 +1,4 @@
-"""Entry points: kernels that Python calls. Each has one set of types and machine code of its own."""
+"""Entry points: kernels that Python calls. Each has one set of types, and a function in the library."""
 
 import ctypes
 from collections.abc import Callable
@@ -15,7 +15,7 @@ ENTRY_POINTS: dict[str, "EntryPoint"] = {}
 
 
 class EntryPoint:
-    """A kernel that Python calls, by an address in machine code that is loaded at its first call."""
+    """A kernel that Python calls. Its function in the library is looked up at the first call."""
 
     def __init__(
         self,
@@ -61,7 +61,7 @@ class EntryPoint:
         return self._run
 
     def __call__(self, *arguments: Any) -> Any:
-        """Run the machine code."""
+        """Run the compiled function."""
         block = self.signature.pack(arguments)
         (self._run or self.load())(ctypes.addressof(ctypes.c_char.from_buffer(block)))
         return self.signature.unpack(block)
@@ -80,7 +80,7 @@ class Choice:
         }
 
     def __call__(self, *arguments: Any) -> Any:
-        """Run the machine code for the type of the arguments."""
+        """Run the compiled function for the type of the arguments."""
         return self._rows[type(reduce(getitem, self._place, arguments))](*arguments)
 
     def __getitem__(self, kind: type) -> EntryPoint:
