@@ -312,3 +312,17 @@ def test_what_differences_forget_is_told_alike_between_braces(case):
         values = getattr(alone, name)
         width = np.ptp(values) if np.isfinite(values).all() else 0.0
         assert getattr(found, name) == pytest.approx(values[0], rel=1e-9, abs=width), name
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "period", "restitution", "brace", "returned"),
+    [(1.5, 2.5, 0.5, math.inf, 1.0), (10.5, 2.5, 0.5, 0.06, 0.2)],
+)
+def test_chattering_is_cut_short_in_lanes_as_alone(amplitude, period, restitution, brace, returned):
+    """The states are the same to rounding if each impact is computed, so the number of events is compared."""
+    systems = np.array([[amplitude, math.tau / period, period, 0.5, restitution, brace, returned, 0.0]])
+    starts, go_on = np.zeros((1, 2)), np.zeros(1, np.int64)
+    alone, found = empty_results(1), batch.classify_batch(systems, starts, 200, 16, go_on)
+    kind, memory = parameters_of_row(systems[0]), make_workspace(200, 16)
+    batch.classify_batch_scalar(kind, systems, starts, 200, 16, memory, alone, go_on)
+    assert found.work == alone.work
