@@ -45,6 +45,14 @@ def test_the_symmetric_mode_breaks_its_symmetry_where_the_closed_form_says(perio
     assert branch.ends == ("end of the range", "end of the range")
 
 
+def test_the_section_of_an_orbit_is_as_far_from_its_impacts_as_can_be():
+    """The two impacts of a symmetric orbit are half a cycle apart: a quarter of a cycle, although a chain stores one."""
+    orbit = rk.continue_orbit(mode_orbit(2.0, 1.0, 0.8, 1), "amplitude", (1.5, 2.5)).orbit(50)
+    forcing = rk.Harmonic(orbit.system.forcing.amplitude, period=1.0, phase=orbit.phase)
+    impacts = rk.simulate(rk.System(forcing, 0.8), orbit.state, cycles=2).events["time"]
+    np.testing.assert_allclose(impacts, [0.25, 0.75, 1.25, 1.75], rtol=0, atol=1e-9)
+
+
 def test_what_is_printed_of_a_branch_says_where_it_is_stable():
     """Up to the closed form's symmetry breaking; the pair that is born there, up to its period doubling."""
     breaking = symmetry_breaking_amplitude(1.721328, 0.8, 1)
