@@ -1,5 +1,7 @@
-"""Fixtures of all tests: the report on the paper, made once, and samples that --exhaustive replaces by the whole."""
+"""Common to all tests: the report on the paper, made once, samples that --exhaustive replaces, and times per test."""
 
+import os
+import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -9,6 +11,9 @@ import numpy as np
 import pytest
 
 from rocking.papers.yim_lin_1991 import reproduce
+
+
+TIMES = Path(__file__).parents[1] / "build" / "test-times.tsv"
 
 
 class Reproduced(NamedTuple):
@@ -64,3 +69,21 @@ def pytest_collection_modifyitems(config, items):
     kept = set(chosen)
     config.hook.pytest_deselected(items=[item for item in items if item not in kept])
     items[:] = chosen
+
+
+def pytest_sessionstart(session):
+    """Begin the file of times. The worker processes append to it."""
+    if not hasattr(session.config, "workerinput"):
+        TIMES.parent.mkdir(exist_ok=True)
+        TIMES.write_text("wall/s\tprocessor/s\ttest\n", encoding="utf-8")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item):
+    """Write the wall time and the processor time of a test, its fixtures and its processes included."""
+    wall, processor = time.perf_counter(), sum(os.times()[:4])
+    result = yield
+    wall, processor = time.perf_counter() - wall, sum(os.times()[:4]) - processor
+    with TIMES.open("a", encoding="utf-8") as times:  # one write per line: lines of several processes do not mix
+        times.write(f"{wall:.3f}\t{processor:.3f}\t{item.nodeid}\n")
+    return result
