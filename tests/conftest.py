@@ -12,23 +12,20 @@ import pytest
 
 from rocking.papers.yim_lin_1991 import reproduce
 
-
 TIMES = Path(__file__).parents[1] / "build" / "test-times.tsv"
 
 
 class Reproduced(NamedTuple):
-    """Report as `make reproduce` writes it: folder, files written, and progress calls."""
+    """Report as `make reproduce` writes it: folder and files written."""
 
     folder: Path
     paths: Sequence[Path]
-    calls: Sequence[tuple[int, int, str]]
 
 
 @pytest.fixture(scope="session")
 def reproduced(tmp_path_factory):
-    folder, calls = tmp_path_factory.mktemp("figures") / "made" / "here", []
-    paths = reproduce(folder, progress=lambda *call: calls.append(call))
-    return Reproduced(folder, paths, calls)
+    folder = tmp_path_factory.mktemp("figures") / "made" / "here"
+    return Reproduced(folder, reproduce(folder))
 
 
 def pytest_addoption(parser):
@@ -84,6 +81,8 @@ def pytest_runtest_protocol(item):
     wall, processor = time.perf_counter(), sum(os.times()[:4])
     result = yield
     wall, processor = time.perf_counter() - wall, sum(os.times()[:4]) - processor
-    with TIMES.open("a", encoding="utf-8") as times:  # one write per line: lines of several processes do not mix
+    with TIMES.open(
+        "a", encoding="utf-8"
+    ) as times:  # one write per line: lines of several processes do not mix
         times.write(f"{wall:.3f}\t{processor:.3f}\t{item.nodeid}\n")
     return result
