@@ -12,7 +12,6 @@ import pytest
 
 from rocking.papers.yim_lin_1991 import reproduce
 
-
 TIMES = Path(__file__).parents[1] / "build" / "test-times.tsv"
 
 
@@ -84,6 +83,8 @@ def pytest_runtest_protocol(item):
     wall, processor = time.perf_counter(), sum(os.times()[:4])
     result = yield
     wall, processor = time.perf_counter() - wall, sum(os.times()[:4]) - processor
-    with TIMES.open("a", encoding="utf-8") as times:  # one write per line: lines of several processes do not mix
+    with TIMES.open(
+        "a", encoding="utf-8"
+    ) as times:  # one write per line: lines of several processes do not mix
         times.write(f"{wall:.3f}\t{processor:.3f}\t{item.nodeid}\n")
     return result

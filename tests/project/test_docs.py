@@ -1,14 +1,11 @@
-"""The pages: complete, without dead links, with an entry for every public name, and all code blocks are run."""
+"""The pages: complete, without dead links, with an entry for every public name. `make docs` runs their blocks."""
 
 import inspect
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from sybil import Document
-from sybil.parsers.myst import CodeBlockParser, PythonCodeBlockParser
 
 import rocking
 from docs.extensions import command_options
@@ -229,13 +226,9 @@ def test_every_example_and_every_figure_is_in_the_gallery():
 
 @pytest.mark.parametrize("page", [*PAGES, ROOT / "README.md"], ids=name_of)
 def test_every_block_of_code_is_run(page):
-    """There are no blocks but those that the tests run and those of which Sphinx makes pages."""
-    blocks = [kind for kind, _ in fences(page) if kind in ("python", "sh")]
+    """There are no blocks but those that `make docs` runs and those of which Sphinx makes pages."""
     others = {kind.partition(" ")[0] for kind, _ in fences(page)} - {"python", "sh"}
-    assert others <= ({"", "toml"} if page in FRONT else DIRECTIVES)
-    document = Document.parse(str(page), PythonCodeBlockParser(), CodeBlockParser("sh", evaluator=print))
-    assert len(list(document.examples())) == len(blocks)
-    assert page.parent in (ROOT, DOCS)  # where the tests look for them
+    assert others <= ({""} if page in FRONT else DIRECTIVES)
 
 
 def test_no_two_pages_write_to_one_store():
@@ -260,9 +253,3 @@ def test_readme_shows_what_is_printed():
         shown, (system, braced), (r"(?<=≤ )[\de-]+", r"\d\.\d+|\d+(?= standard)"), strict=True
     ):
         assert re.sub(rounded, "#", line) == re.sub(rounded, "#", str(rocking.classify(asked)))
-
-
-@pytest.mark.parametrize("script", EXAMPLES, ids=name_of)
-def test_every_example_runs_and_draws(script, tmp_path):
-    subprocess.run([sys.executable, script, "picture.png"], cwd=tmp_path, check=True, capture_output=True)
-    assert (tmp_path / "picture.png").stat().st_size > 10_000
