@@ -9,6 +9,7 @@ import rocking as rk
 from rocking.kernels.entry_point import EntryPoint
 from rocking.model.optional import EXTRAS
 from rocking.papers.yim_lin_1991 import reproduce
+from rocking.survey import to_netcdf
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 MOTION = rk.simulate(SYSTEM, cycles=3)
@@ -32,6 +33,7 @@ PROOF = "proofs need python-flint"
         ("store", "numcodecs", lambda: rk.parametric_map(**GRID, store="map.zarr"), STORES),
         ("store", "zarr", lambda: rk.plot.parametric_map("made"), STORES),
         ("netcdf", "h5netcdf", f"{MAP} --netcdf map.nc", NETCDF),
+        ("netcdf", "h5netcdf", lambda: to_netcdf(None, "map.nc"), NETCDF),
         ("netcdf", "h5py", f"record example {BLOCK} --netcdf record.nc", NETCDF),
         ("film", "imageio_ffmpeg", f"record example {BLOCK} --animate block.mp4", FILM),
         ("film", "imageio_ffmpeg", f"simulate {RUN} --plot block.mp4", FILM),
