@@ -13,6 +13,12 @@ from rocking.kernels.library.processor import COMPILER
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+REQUIREMENTS = [
+    requirement
+    for group in (PROJECT["dependencies"], *PROJECT["optional-dependencies"].values())
+    for requirement in map(Requirement, group)
+    if requirement.name != PROJECT["name"]  # an extra may contain others
+]
 MODULES = sorted((ROOT / "src").rglob("*.py"))
 MADE = {"results", "build", "dist", "__pycache__"}
 TEXTS = {"", ".cff", ".json", ".md", ".py", ".sh", ".toml", ".txt"}
@@ -62,9 +68,9 @@ def test_constraints_pin_every_dependency_by_version_alone(path):
     lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
     assert [line for line in lines if not re.fullmatch(r"[\w.-]+==[\w.]+", line)] == []
     pinned = {canonicalize_name(name): version for name, version in (line.split("==") for line in lines)}
-    extras = PROJECT["optional-dependencies"].values()
-    wanted = [Requirement(text) for group in (PROJECT["dependencies"], *extras) for text in group]
-    assert [str(r) for r in wanted if pinned.get(canonicalize_name(r.name), "") not in r.specifier] == []
+    assert [
+        str(r) for r in REQUIREMENTS if pinned.get(canonicalize_name(r.name), "") not in r.specifier
+    ] == []
 
 
 def test_every_python_from_the_oldest_allowed_is_pinned():
@@ -101,9 +107,7 @@ def test_packages_whose_inner_parts_are_used_have_an_upper_bound():
     used = {name for path in MODULES for name in inner.findall(path.read_text())}
     bounded = {
         requirement.name
-        for requirement in map(
-            Requirement, [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["kernels"]]
-        )
+        for requirement in REQUIREMENTS
         if any(bound.operator in ("<", "==") for bound in requirement.specifier)
     }
     # bokeh documents what is in its `core`

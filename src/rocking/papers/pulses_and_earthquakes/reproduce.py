@@ -33,8 +33,8 @@ def reproduce(
     folder : str or Path
         Folder for the files; created if it does not exist.
     figures : iterable of str or int, optional
-        Figures 1 to 5, and the table "claims". Default: all of them, and the report index.html, also as PDF if WeasyPrint is
-        installed.
+        Figures 1 to 5, and the table "claims". Default: all of them, and the report index.html, also as PDF if the
+        libraries of WeasyPrint are available.
     progress : callable, optional
         Called as ``progress(done, total, name)`` before each figure and claim, and once at the end.
     summary : callable, optional
@@ -49,6 +49,8 @@ def reproduce(
     ------
     ValueError
         If a figure is unknown.
+    ImportError
+        If the report is wanted, and the extra ``report`` is not installed.
     OSError
         If the folder cannot be created or written.
 

@@ -55,7 +55,7 @@ def reproduce(
     figures : iterable of str or int, optional
         Figures of the paper, 1 to 12, "13a" and "13b". Tables: "exponents" and "claims". Additional figures: "chaos", "cascade",
         "crisis", "threshold", "coexistence", "zoom" and "bifurcations". Default: all of them, and the report index.html, also as PDF if
-        WeasyPrint is installed.
+        the libraries of WeasyPrint are available.
     progress : callable, optional
         Called as ``progress(done, total, name)`` before each figure, table and claim, and once at the end.
     summary : callable, optional
@@ -70,6 +70,8 @@ def reproduce(
     ------
     ValueError
         If a figure is unknown.
+    ImportError
+        If the report is wanted, and the extra ``report`` is not installed.
     OSError
         If the folder cannot be created or written.
 
