@@ -1,4 +1,4 @@
-# `make` alone lists the targets. Each target sets up .venv first; PYTHON=python3.12 selects the interpreter.
+# `make` alone lists the targets. Each target sets up what it needs in .venv first; PYTHON=python3.12 selects the interpreter.
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
@@ -6,71 +6,92 @@ export PYTHON
 
 bin := .venv/bin
 workers ?= 2
+pytest = $(bin)/python -m pytest -q -n $(workers)
+user = distributed explorer film netcdf proof report store
+# Set up .venv with these extras, and compile the kernels, unless both are up to date.
+ready = @scripts/setup.sh $(1) && $(bin)/python -m rocking.kernels
 # Chromium for the tests of the page, which are skipped if it cannot be installed.
 chromium = [ -x /usr/bin/chromium ] || scripts/debian.sh chromium || echo 'without it the tests of the page are skipped'
-
 # Libraries for the PDF version of the report; without them only the HTML page is written.
 print = scripts/debian.sh libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0 || true
 
-.PHONY: help setup reproduce explore test test-long test-exhaustive mutations bench bench-against lint format docs site wheel constraints
+.PHONY: help setup reproduce explore test test-long test-exhaustive test-project mutations bench bench-against lint format check docs \
+    site wheel constraints
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS=$$'\t' read -r name what; do printf 'make %-15s %s\n' "$$name" "$$what"; done
 
-setup: ## make .venv with the pinned versions and compile the kernels, or bring both up to date
-	@scripts/setup.sh
-	@$(bin)/python -m rocking.kernels
+setup: ## make .venv with the pinned versions of all that users need and compile the kernels, or bring both up to date
+	$(call ready,$(user))
 
-reproduce: setup ## reports on Yim & Lin (1991), and on pulses and earthquakes: results/*/index.html
+reproduce: ## reports on Yim & Lin (1991), and on pulses and earthquakes: results/*/index.html
+	$(call ready,report)
 	@$(print)
 	@$(bin)/rocking paper
 	@$(bin)/rocking paper pulses-and-earthquakes
 
-explore: setup ## interactive explorer in the browser; port=N selects the port
+explore: ## interactive explorer in the browser; port=N selects the port
+	$(call ready,explorer)
 	@$(bin)/rocking explore $(if $(port),--port $(port))
 
-test: lint ## lint, then the fast tests, the examples in docstrings and the pages
+test: ## the fast tests, and the examples in docstrings
+	$(call ready,test)
 	@$(print)
 	@$(chromium)
-	@$(bin)/python -m pytest -q -n $(workers)
+	@$(pytest)
 
-test-long: setup ## tests that take minutes: millions of crossings, systems and cycles, the report
+check: lint test ## lint, then the tests
+
+test-long: ## tests that take minutes: millions of crossings, systems and cycles, the report
+	$(call ready,test)
 	@$(chromium)
-	@$(bin)/python -m pytest -q -n $(workers) -m long --timeout 3600 $(options)
+	@$(pytest) -m long --timeout 3600 tests $(options)
 
-test-exhaustive: setup ## tests of a sample, such as 300 points of a map, on all points: hours
+test-exhaustive: ## tests of a sample, such as 300 points of a map, on all points: hours
+	$(call ready,test)
 	@$(print)
-	@$(bin)/python -m pytest -q -n $(workers) -m 'long or not long' --exhaustive --timeout 0 -rP tests
+	@$(pytest) -m 'long or not long' --exhaustive --timeout 0 -rP tests
 
-mutations: setup ## break the code on purpose and expect tests to fail; files="plot/ melnikov" selects, workers=N at a time
+test-project: ## tests of the project's files, pages and tools: pins, wheel, benchmarks, mutations
+	$(call ready,test)
+	@$(pytest) tests/project
+
+mutations: ## break the code on purpose and expect tests to fail; files="plot/ melnikov" selects, workers=N at a time
+	$(call ready,test)
 	@$(bin)/python tests/mutations.py --workers $(workers) $(options) $(files)
 
-bench: setup ## benchmarks, as ratios to peers measured in the same run
+bench: ## benchmarks, as ratios to peers measured in the same run
+	$(call ready,test)
 	@$(chromium)
 	@$(bin)/python -m benchmarks
 
-bench-against: setup ## compare the speed with a commit, such as REF=main: ten minutes; seed=N repeats an order of runs
+bench-against: ## compare the speed with a commit, such as REF=main: ten minutes; seed=N repeats an order of runs
+	$(call ready,test)
 	@$(bin)/python -m benchmarks.against "$(REF)" $(if $(seed),--seed $(seed))
 
-lint: setup ## ruff, mypy, import-linter
+lint: ## ruff, mypy, import-linter
+	$(call ready,lint)
 	@$(bin)/ruff check --quiet
 	@$(bin)/ruff format --check --quiet || { echo 'not formatted: run `make format`'; exit 1; }
-	@$(bin)/mypy --no-error-summary
-	@$(bin)/lint-imports --no-logo
+	@scripts/watched.sh mypy $(bin)/mypy --no-error-summary
+	@scripts/watched.sh import-linter $(bin)/lint-imports --no-logo
 
-format: setup ## format the sources
+format: ## format the sources
+	$(call ready,lint)
 	@$(bin)/ruff check --quiet --fix-only
 	@$(bin)/ruff format
 
-docs: setup ## the pages, with all code blocks executed: build/docs/index.html
-	@scripts/setup.sh docs
+docs: ## the pages, with all code blocks and those of the README executed: build/docs/index.html
+	$(call ready,docs $(user))
 	@$(chromium)
-	@$(bin)/python -m sphinx --quiet --fail-on-warning --keep-going -d build/docs-pages docs build/docs
+	@scripts/watched.sh README.md $(bin)/python docs/extensions/run_page.py README.md
+	@$(bin)/python -m sphinx --fail-on-warning --keep-going -d build/docs-pages docs build/docs
 	@echo wrote build/docs/index.html
 
 site: reproduce docs ## the reports, then the pages with them: minutes longer than docs
 
-wheel: setup ## wheel with the compiled kernels: dist/
+wheel: ## wheel with the compiled kernels: dist/
+	$(call ready)
 	@$(bin)/python scripts/wheel.py
 
 constraints: ## pin the newest versions again; PYTHONS names an interpreter of each minor version

@@ -13,5 +13,6 @@ if [ "$(id -u)" -ne 0 ] || ! command -v apt-get >/dev/null; then
     exit 1
 fi
 export DEBIAN_FRONTEND=noninteractive
-apt-get update -qq </dev/null
-apt-get install -qq --no-install-recommends "${missing[@]}" </dev/null >/dev/null
+what="Installing ${missing[*]}"
+"$(dirname "$0")/watched.sh" "$what (lists)" apt-get update -qq </dev/null
+"$(dirname "$0")/watched.sh" "$what" apt-get install -qq --no-install-recommends "${missing[@]}" </dev/null

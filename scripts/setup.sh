@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # setup.sh [EXTRA...]: make .venv with the pinned versions, or bring it up to date; without changes, do nothing.
-# An EXTRA, such as docs, is added on request. PYTHON=... names the interpreter. Default: the newest one with a constraint file.
+# Each EXTRA, such as docs, is installed when it is first requested, and stays up to date from then on.
+# PYTHON=... names the interpreter. Default: the newest one with a constraint file.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-readonly STAMP=.venv/made-from
+readonly STAMP=.venv/made-from EXTRAS=.venv/extras
 export PIP_DISABLE_PIP_VERSION_CHECK=1
 
 # Print the minor version of an interpreter; fail if it is missing or cannot make environments.
@@ -35,7 +36,7 @@ choose_python() {
         fi
     done
     # Debian has a part of Python's venv in a separate package.
-    scripts/debian.sh python3 python3-venv && echo python3
+    scripts/debian.sh python3 python3-venv >&2 && echo python3
 }
 
 # Print the file for this version, or the newest file for a Python that is newer than all of them.
@@ -62,26 +63,21 @@ refuse() {
     exit 1
 }
 
-# install CONSTRAINTS WHAT: install this package with extras, in the pinned versions.
-install() {
-    .venv/bin/python -m pip install --quiet --constraint "$1" --no-build-isolation --editable "$2"
+# Run pip and show what it does.
+pip_install() {
+    local what=$1
+    shift
+    scripts/watched.sh "$what" .venv/bin/python -m pip install --progress-bar off --constraint "$constraints" "$@"
 }
 
-# Add the extras that the present .venv lacks.
-add() {
-    local extra
-    for extra in "$@"; do
-        [ "$(cat "$STAMP-$extra" 2>/dev/null)" != "$wanted" ] || continue
-        echo "Installing the extra $extra ..."
-        install "$(constraints_for "$(version_of .venv/bin/python)")" ".[$extra]"
-        echo "$wanted" >"$STAMP-$extra"
-    done
+# Print the extras of .venv and the requested ones, separated by commas.
+all_extras() {
+    { [ ! -e "$EXTRAS" ] || cat "$EXTRAS"; printf '%s\n' kernels "$@"; } | sort -u | paste -s -d ,
 }
 
 wanted=$(fingerprint)
 if is_usable; then
-    if [ "$(cat "$STAMP")" = "$wanted" ]; then
-        add "$@"
+    if [ "$(cat "$STAMP")" = "$wanted" ] && [ "$(all_extras "$@")" = "$(all_extras)" ]; then
         exit 0
     fi
     python=.venv/bin/python
@@ -91,21 +87,20 @@ fi
 version=$(version_of "$python") || refuse "$python"
 constraints=$(constraints_for "$version") || refuse "$python, version $version"
 
-if is_usable; then
-    echo "Bringing .venv up to date with $constraints ..."
-else
-    echo "Setting up .venv with Python $version: two minutes or more, about 350 MB to download the first time ..."
+if ! is_usable; then
+    echo "Setting up .venv with Python $version"
     rm -rf .venv
     "$python" -m venv .venv
 fi
+extras=$(all_extras "$@")
 pwd >"$STAMP" # if this is interrupted, the next call goes on with the same .venv
 # pip hides the lines of a build. So the kernels are compiled before it builds the package, and it finds them.
 linker=ziglang # this package has a linker, for machines without a C compiler
 for compiler in cc gcc clang; do
     ! command -v "$compiler" >/dev/null || linker=
 done
-.venv/bin/python -m pip install --quiet --constraint "$constraints" pip setuptools numba $linker
+pip_install "Installing the compiler of the kernels" pip setuptools numba $linker
 PYTHONPATH=src .venv/bin/python -m rocking.kernels
-install "$constraints" '.[kernels,distributed,explorer,report,test,lint]'
+pip_install "Installing rocking [$extras]" --no-build-isolation --editable ".[$extras]"
+tr , '\n' <<<"$extras" >"$EXTRAS"
 echo "$wanted" >"$STAMP"
-add "$@"

@@ -1,6 +1,8 @@
 """Common to all tests: the report on the paper, made once, samples that --exhaustive replaces, and times per test."""
 
 import os
+import sys
+import threading
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,9 +12,8 @@ from zlib import crc32
 import numpy as np
 import pytest
 
-from rocking.papers.yim_lin_1991 import reproduce
-
 TIMES = Path(__file__).parents[1] / "build" / "test-times.tsv"
+REPORTED = threading.Event()
 
 
 class Reproduced(NamedTuple):
@@ -24,6 +25,8 @@ class Reproduced(NamedTuple):
 
 @pytest.fixture(scope="session")
 def reproduced(tmp_path_factory):
+    from rocking.papers.yim_lin_1991 import reproduce
+
     folder = tmp_path_factory.mktemp("figures") / "made" / "here"
     return Reproduced(folder, reproduce(folder))
 
@@ -69,10 +72,25 @@ def pytest_collection_modifyitems(config, items):
 
 
 def pytest_sessionstart(session):
-    """Begin the file of times. The worker processes append to it."""
+    """Begin the file of times, to which the worker processes append, and show that tests are collected."""
     if not hasattr(session.config, "workerinput"):
         TIMES.parent.mkdir(exist_ok=True)
         TIMES.write_text("wall/s\tprocessor/s\ttest\n", encoding="utf-8")
+        threading.Thread(target=show_collection, args=[time.monotonic()], daemon=True).start()
+
+
+def show_collection(start):
+    """Print a line every three seconds until the first test has ended."""
+    while not REPORTED.wait(3.0):
+        print(f"collecting the tests: {time.monotonic() - start:.0f} s", file=sys.__stderr__, flush=True)
+
+
+def pytest_runtest_logreport():
+    REPORTED.set()
+
+
+def pytest_sessionfinish():
+    REPORTED.set()
 
 
 @pytest.hookimpl(wrapper=True)
@@ -81,8 +99,7 @@ def pytest_runtest_protocol(item):
     wall, processor = time.perf_counter(), sum(os.times()[:4])
     result = yield
     wall, processor = time.perf_counter() - wall, sum(os.times()[:4]) - processor
-    with TIMES.open(
-        "a", encoding="utf-8"
-    ) as times:  # one write per line: lines of several processes do not mix
-        times.write(f"{wall:.3f}\t{processor:.3f}\t{item.nodeid}\n")
+    line = f"{wall:.3f}\t{processor:.3f}\t{item.nodeid}\n"
+    with TIMES.open("a", encoding="utf-8") as times:
+        times.write(line)  # in one piece: lines of several processes do not mix
     return result

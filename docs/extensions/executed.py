@@ -4,6 +4,7 @@ The directive ``{script}`` shows a script: its docstring, its output, its pictur
 """
 
 import ast
+import contextlib
 import inspect
 import json
 import re
@@ -11,7 +12,9 @@ import shutil
 import subprocess
 import sys
 import textwrap
+import time
 from pathlib import Path
+from subprocess import PIPE
 
 from docutils import nodes
 from docutils.parsers.rst import Directive
@@ -60,14 +63,17 @@ def run(folder, blocks):
     """Return the output of each block and the names of the pictures that it wrote into the folder."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    logger.info("running %d blocks of %s", len(blocks), folder.name)
-    command = [sys.executable, Path(__file__).with_name("run_page.py")]
-    done = subprocess.run(
-        command, cwd=folder, input=json.dumps(blocks), capture_output=True, text=True, check=False
-    )
-    if done.returncode:
-        raise ExtensionError(f"a block of the page {folder.name} fails:\n{done.stderr}")
-    return json.loads(done.stdout)
+    command, began = [sys.executable, Path(__file__).with_name("run_page.py")], time.monotonic()
+    with subprocess.Popen(command, cwd=folder, stdin=PIPE, stdout=PIPE, stderr=PIPE, text=True) as process:
+        while True:
+            seconds = time.monotonic() - began
+            logger.info("running the %d blocks of %s: %.0f s", len(blocks), folder.name, seconds)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                printed, errors = process.communicate(json.dumps(blocks), timeout=3)
+                break
+    if process.returncode:
+        raise ExtensionError(f"a block of the page {folder.name} fails:\n{errors}")
+    return json.loads(printed)
 
 
 def output(printed):

@@ -2,16 +2,19 @@
 
 The input is a list of [language, code] in JSON. The output is a list with the printed text of each block and the names of the pictures
 that it wrote into the current folder. Each block sees the names of the blocks before it. The first error ends the run.
+With the path of a Markdown file, its blocks are run in a temporary folder instead, and their output is printed.
 """
 
 import contextlib
 import io
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
 import sysconfig
+import tempfile
 from pathlib import Path
 
 
@@ -56,8 +59,21 @@ def run(blocks):
     return found
 
 
+def run_file(path):
+    """Run the blocks of a Markdown file."""
+    blocks = re.findall(
+        r"^```(python|sh)\n(.*?)^```", path.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
+    )
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        for printed, _ in run(blocks):
+            print(printed)
+
+
 if __name__ == "__main__":
     os.environ["MPLBACKEND"] = "Agg"
-    sys.argv = ["page"]
-    results = run(json.load(sys.stdin))
-    json.dump(results, sys.stdout)
+    files, sys.argv = sys.argv[1:], ["page"]
+    if files:
+        run_file(Path(files[0]))
+    else:
+        results = run(json.load(sys.stdin))
+        json.dump(results, sys.stdout)

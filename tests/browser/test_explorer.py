@@ -17,11 +17,11 @@ from rocking.plot.parts.legend import LOOKS
 
 PICTURES = ("history", "portrait", "section", "spectrum", "basin")
 # amplitude, period, restitution, and the known verdict
-KNOWN = {
-    "(1,1)": ((2.0, 1.0, 0.925), "periodic", "1 cycle, symmetric", "impacts per period\n2\n"),
-    "(1,3)": ((6.5, 0.4, 0.925), "periodic", "3 cycles, symmetric", "impacts per period\n2\n"),
-    "overturning": ((1.75, 2.0, 0.95), "overturned", None, None),
-}
+KNOWN = [
+    ((2.0, 1.0, 0.925), "periodic", "1 cycle, symmetric", "impacts per period\n2\n"),
+    ((6.5, 0.4, 0.925), "periodic", "3 cycles, symmetric", "impacts per period\n2\n"),
+    ((1.75, 2.0, 0.95), "overturned", None, None),
+]
 
 
 @pytest.mark.parametrize("width, height, scheme", [(1280, 800, "light"), (390, 844, "dark")])
@@ -50,21 +50,20 @@ def test_click_changes_every_picture(visit):
     visitor.is_content()
 
 
-@pytest.mark.parametrize("case", KNOWN)
-def test_numbers_typed_give_the_known_verdict(visit, case):
-    (amplitude, period, restitution), kind, symmetry, impacts = KNOWN[case]
+def test_numbers_typed_give_the_known_verdict(visit):
     visitor = visit()
     visitor.open("?version=1&amplitude=3&period=0.7&restitution=0.9")
-    for name, value in (("amplitude", amplitude), ("period", period), ("restitution", restitution)):
-        visitor.page.fill(f"#{name}", str(value))
-        visitor.page.press(f"#{name}", "Enter")
-    visitor.until(
-        f"location.search === '?version=1&amplitude={amplitude:g}&period={period:g}&restitution={restitution:g}'"
-    )
-    visitor.judged()
-    assert visitor.text("kind") == kind
-    for words in filter(None, (symmetry, impacts)):
-        assert words in visitor.text("facts")
+    for (amplitude, period, restitution), kind, symmetry, impacts in KNOWN:
+        for name, value in (("amplitude", amplitude), ("period", period), ("restitution", restitution)):
+            visitor.page.fill(f"#{name}", str(value))
+            visitor.page.press(f"#{name}", "Enter")
+        visitor.until(
+            f"location.search === '?version=1&amplitude={amplitude:g}&period={period:g}&restitution={restitution:g}'"
+        )
+        visitor.judged()
+        assert visitor.text("kind") == kind
+        for words in filter(None, (symmetry, impacts)):
+            assert words in visitor.text("facts")
     visitor.is_content()
 
 
@@ -167,22 +166,19 @@ def test_shared_link_gives_the_same_view_and_back_the_one_before(visit):
     other.is_content()
 
 
-@pytest.mark.parametrize(
-    "name, typed",
-    [("amplitude", "-1"), ("period", "soon"), ("restitution", "1.2"), ("cycles", "1e9"), ("angle", "nan")],
-)
-def test_bad_number_is_refused_at_its_field_and_changes_nothing(visit, name, typed):
+def test_bad_number_is_refused_at_its_field_and_changes_nothing(visit):
     visitor = visit()
     visitor.open()
     before = visitor.page.url, visitor.data("history")
-    visitor.page.fill(f"#{name}", typed)
-    visitor.page.press(f"#{name}", "Enter")
-    visitor.page.wait_for_selector(f"#{name}[aria-invalid=true]")
-    assert re.match(
-        rf"{name} must be a (whole )?number in \[.*\]; got '{typed}'", visitor.text(f"{name}-refused")
-    )
-    visitor.see(f"refused-{name}")
-    assert (visitor.page.url, visitor.data("history")) == before
+    wrong = {"amplitude": "-1", "period": "soon", "restitution": "1.2", "cycles": "1e9", "angle": "nan"}
+    for name, typed in wrong.items():
+        visitor.page.fill(f"#{name}", typed)
+        visitor.page.press(f"#{name}", "Enter")
+        visitor.page.wait_for_selector(f"#{name}[aria-invalid=true]")
+        refusal = rf"{name} must be a (whole )?number in \[.*\]; got '{typed}'"
+        assert re.match(refusal, visitor.text(f"{name}-refused"))
+        assert (visitor.page.url, visitor.data("history")) == before
+    visitor.see("refused")
     visitor.is_content()
 
 
@@ -199,9 +195,8 @@ NAMED = (
 )
 
 
-@pytest.mark.parametrize("width, height, scheme", [(1280, 800, "light"), (390, 844, "dark")])
-def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit, width, height, scheme):
-    visitor = visit(width, height, scheme)
+def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit):
+    visitor = visit(390, 844, "dark")
     visitor.open("?version=1&amplitude=14&period=1.35&restitution=0.925")
     visitor.until(f"{NAMED} === 'overturned; {LOOKS[2].name}; another orbit'")
     shares = re.findall(r"([\d.]+) %", visitor.text("attractors"))
@@ -215,7 +210,7 @@ def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit, width, 
     asymmetric = 2
     assert {asymmetric, asymmetric + len(LOOKS)} <= set(image.ravel().tolist())
     visitor.page.locator("#basin-picture").scroll_into_view_if_needed()
-    visitor.see(f"twins-{width}-{scheme}")
+    visitor.see("twins")
     visitor.page.fill("#amplitude", "2")
     visitor.page.press("#amplitude", "Enter")
     visitor.until(f"!{NAMED}.includes('another')")
@@ -390,7 +385,7 @@ PAGES = {
 MAPS = ("map", "basin")
 
 
-@pytest.mark.parametrize("page, scheme", [("", "light"), ("", "dark"), ("ground-motion", "light")])
+@pytest.mark.parametrize("page, scheme", [("", "dark"), ("ground-motion", "light")])
 def test_each_figure_is_saved_in_each_format(visit, tmp_path, page, scheme):
     visitor = visit(scheme=scheme)
     visitor.open(page)

@@ -210,6 +210,7 @@ def test_distance_from_a_printed_pair_is_zero_between_its_numbers():
     assert judging.outside(2.98, 3.00, 3.01) == pytest.approx(0.02)
 
 
+@pytest.mark.long
 def test_report_has_all_figures_the_table_and_the_page(folder):
     folder, lines = folder
     pdf = ["index.pdf"] if page.can_print() else []
@@ -223,6 +224,7 @@ def test_report_has_all_figures_the_table_and_the_page(folder):
         assert len(list(csv.DictReader(file))) == len(ROWS)
 
 
+@pytest.mark.long
 def test_page_shows_every_row_and_figure_and_loads_nothing(folder):
     text = (folder[0] / "index.html").read_text(encoding="utf-8")
     assert text.count("<img") == text.count('<img src="data:image/') == len(FIGURES)
@@ -230,12 +232,14 @@ def test_page_shows_every_row_and_figure_and_loads_nothing(folder):
     assert not re.search(r"""(src|href)=(?!["']?(data:|#))|@import|url\(|<script""", text)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", FIGURES)
 def test_no_picture_is_blank(folder, name):
     with Image.open(folder[0] / f"figure-{name}.png") as image:
         assert np.asarray(image.convert("L")).std() > 10
 
 
+@pytest.mark.long
 def test_figures_have_the_same_bytes_each_time(folder, tmp_path):
     again = reproduce(tmp_path, figures=[2, 3])
     assert all(path.read_bytes() == (folder[0] / path.name).read_bytes() for path in again)

@@ -1,7 +1,6 @@
 """`rocking classify`: output, JSON, error messages and exit codes."""
 
 import json
-import sys
 
 import pytest
 
@@ -221,12 +220,3 @@ def test_proof_of_the_full_block_is_refused(rocking):
     assert (
         message == "proofs are available for the slender block only (omit --critical-angle and --model full)"
     )
-
-
-def test_proof_without_flint_says_what_to_install(rocking, monkeypatch):
-    for name in [name for name in sys.modules if name.startswith("rocking.proof.")]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "flint", None)
-    code, message, out = rocking(f"classify {PERIODIC} --prove")
-    assert (code, out) == (2, "")
-    assert message == "proofs need python-flint (run pip install '.[proof]' in a copy of the repository)"

@@ -6,7 +6,6 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -458,18 +457,6 @@ def test_interrupted_verdict_raises_keyboard_interrupt_and_the_process_ends(run,
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=20)
     assert (process.returncode, out, err) == (0, "interrupted\n", "")
-
-
-def test_readme_shows_what_is_really_printed():
-    """But for the numbers, in which another machine's rounding shows: chaos magnifies it."""
-    block = rk.Block(height=2.0, width=0.5).system(acceleration=4.0, frequency_hz=1.2)
-    readme = without_numbers((Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8"))
-    for asked in (block, system(15.0, 2.0, 0.925, braces=rk.Braces(1.0))):
-        assert f"\n{without_numbers(str(rk.classify(asked)))}\n" in readme
-
-
-def without_numbers(text):
-    return re.sub(r"\d[\d.,]*(e-?\d+)?", "#", text)
 
 
 @pytest.mark.parametrize("asked", [FALLING, RESTING])

@@ -1,7 +1,7 @@
 """Entry point of the command `rocking`.
 
-Exit codes: 0 success, 1 internal error, 2 invalid input, not enough memory or disk space, or no compiled kernels, 130 interrupted
-(Ctrl-C). An error is one line on stderr.
+Exit codes: 0 success, 1 internal error, 2 invalid input, 130 interrupted (Ctrl-C). 2 also stands for a lack of memory, of disk space,
+of compiled kernels, or of an optional package. An error is one line on stderr.
 """
 
 from __future__ import annotations
@@ -87,9 +87,9 @@ def refused(error: Exception) -> tuple[int, str]:
     from typer import TyperException
 
     from rocking.kernels.library import KernelsUnusable
-    from rocking.model import FULL, WriteError
+    from rocking.model import FULL, ExtraMissing, WriteError
 
-    if isinstance(error, KernelsUnusable):
+    if isinstance(error, KernelsUnusable | ExtraMissing):
         return 2, str(error)
     if (lack := lacking(error)) is not None:
         why = str(lack) or "no more memory can be allocated"

@@ -51,7 +51,7 @@ def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
     """Convert errors raised in the block to `YourInput`, with arguments replaced by their names in `typed`."""
     try:
         yield
-    except (ValueError, TypeError, OSError, ImportError) as error:
+    except (ValueError, TypeError, OSError) as error:
         raise YourInput(as_typed(str(error), typed or {})) from error
 
 

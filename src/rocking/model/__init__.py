@@ -50,6 +50,7 @@ from rocking.model.input_warning import InputWarning, warn_of_input, warn_of_val
 from rocking.model.intensity import INTENSITIES, Intensity, intensity_of
 from rocking.model.keywords import explain, similar
 from rocking.model.notebook_renderers import NotebookPicture
+from rocking.model.optional import ExtraMissing, missing_extra, require_extra
 from rocking.model.orbit import Orbit, orbit_in_words
 from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
@@ -149,6 +150,7 @@ __all__ = [
     "ChaosShare",
     "Criterion",
     "Evidence",
+    "ExtraMissing",
     "Forcing",
     "Fragility",
     "GroundMotion",
@@ -215,6 +217,7 @@ __all__ = [
     "limit_name",
     "listed",
     "members",
+    "missing_extra",
     "named",
     "not_written",
     "notebook_renderers",
@@ -238,6 +241,7 @@ __all__ = [
     "replacing",
     "replacing_folder",
     "replacing_hdf5",
+    "require_extra",
     "resolve_path",
     "runs_of",
     "shown",

@@ -16,6 +16,7 @@ from typing import Any
 from attrs import frozen
 
 from rocking.model.access_rights import PRIVATE, PRIVATE_FOLDER, keep_access, takes_files
+from rocking.model.optional import require_format
 from rocking.model.short_texts import shown_path
 from rocking.model.validation import refusal
 from rocking.model.write_errors import FULL, WriteError, not_written
@@ -67,12 +68,15 @@ def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[s
     ------
     ValueError
         If the ending is not one of `suffixes`.
+    ImportError
+        If the format needs an extra that is not installed.
     OSError
         If the folder does not exist, permission is denied, or the path exists and is no regular file.
     """
     path = path_of(name, path)
     if suffixes and path.suffix.lower() not in suffixes:
         raise ValueError(f"{name} must end in {', '.join(suffixes)}; got {shown_path(path)}")
+    require_format(path)
     place = resolve_path(name, path)
     if not place.parent.is_dir():
         raise FileNotFoundError(f"{name} must lie in an existing folder; got {shown_path(path)}")
@@ -94,9 +98,8 @@ def check_folder(name: str, path: str | os.PathLike[str]) -> Path:
         If it is neither. The message begins with `name`.
     """
     path = path_of(name, path)
-    existing = resolve_path(name, path)
-    while not existing.exists():
-        existing = existing.parent
+    place = resolve_path(name, path)
+    existing = next(each for each in (place, *place.parents) if each.exists())
     if not existing.is_dir() or not takes_files(existing):
         raise OSError(f"{name} must be a folder that can be written; got {shown_path(path)}")
     return path
@@ -160,8 +163,7 @@ def _writing(path: str | os.PathLike[str]) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        failure = _system_error(error)
-        if failure is None or failure.errno is None:
+        if (failure := _system_error(error)) is None or failure.errno is None:
             raise
         raise WriteError(not_written(shown_path(path), failure)) from error
 

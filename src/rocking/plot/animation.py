@@ -69,6 +69,8 @@ def animation(
         If an argument has the wrong type.
     ValueError
         If a value lies outside its range, or the motion kept no events.
+    ImportError
+        If `path` is that of an MP4, and the extra ``film`` is not installed.
 
     See Also
     --------

@@ -73,6 +73,8 @@ def parametric_map(
         If `found` is not a map over two axes, or an argument has the wrong type.
     ValueError
         If a curve or a set of symbols is unknown, or a curve does not apply to the map.
+    ImportError
+        If `found` is a path, and the extra ``store`` is not installed.
     OSError
         If `found` is a path that cannot exist, or a store that cannot be read.
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
 from collections.abc import Iterator, Sequence
+from html import escape
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -57,6 +60,8 @@ def tiles(
         If `found` is not a map over two axes.
     ValueError
         If the folder holds other files, or `found` is not a store.
+    ImportError
+        If `found` is a path, and the extra ``store`` is not installed.
     OSError
         If the folder cannot be written.
 
@@ -156,29 +161,17 @@ class Pyramid:
 
 def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | None) -> str:
     """Return the page, with its style and script inside."""
-    from jinja2 import Environment, StrictUndefined
-
     (turn_up, up), (turn_across, across) = (parameter(name, block) for name in read.names)
-    template = files("rocking.plot").joinpath("zoomable_map.html").read_text(encoding="utf-8")
+    shares = counts / counts.sum()
     legend = [
-        {
-            "name": look.name,
-            "colour": look.colour,
-            "hatch": look.hatch or "",
-            "share": percent(count / counts.sum()),
-        }
-        for look, count in zip(LOOKS, counts[: len(LOOKS)], strict=True)
-        if count and count >= LEAST * counts.sum()
+        _legend_row(look.name, look.colour, look.hatch, share)
+        for look, share in zip(LOOKS, shares[: len(LOOKS)], strict=True)
+        if share >= LEAST
     ]
     if counts[NONE]:
-        legend.append(
-            {
-                "name": "not computed",
-                "colour": palette.NOT_COMPUTED,
-                "hatch": "",
-                "share": percent(counts[NONE] / counts.sum()),
-            }
-        )
+        legend.append(_legend_row("not computed", palette.NOT_COMPUTED, None, shares[NONE]))
+    fixed = {} if block is None else {"block": block.size}
+    fixed |= {name: f"{read.attributes[name]:.6g}" for name in FIXED if name in read.attributes}
     view = {
         "edge": EDGE,
         "deepest": pyramid.deepest,
@@ -186,15 +179,26 @@ def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | 
         "across": {"values": _told(turn_across(read.across)), "name": _plain(across)},
         "up": {"values": _told(turn_up(read.up)), "name": _plain(up)},
     }
-    environment = Environment(autoescape=True, undefined=StrictUndefined)
-    return environment.from_string(template).render(
-        view=view,
-        legend=legend,
-        fixed=({} if block is None else {"block": block.size})
-        | {name: f"{read.attributes[name]:.6g}" for name in FIXED if name in read.attributes},
-        points=f"{read.up.size:,} × {read.across.size:,}",
-        version=VERSION,
-    )
+    values = {
+        "version": VERSION,
+        "up": escape(_plain(up)),
+        "across": escape(_plain(across)),
+        "legend": "\n".join(legend),
+        "fixed": "\n".join(
+            f"    <dt>{name.replace('_', ' ')}</dt><dd>{escape(value)}</dd>" for name, value in fixed.items()
+        ),
+        "points": f"{read.up.size:,} × {read.across.size:,}",
+        "view": json.dumps(view).replace("<", "\\u003c"),  # no text ends the element of the script
+    }
+    template = files("rocking.plot").joinpath("zoomable_map.html").read_text(encoding="utf-8")
+    return re.sub(r"{{ (\w+) }}", lambda found: values[found[1]], template)
+
+
+def _legend_row(name: str, colour: str, hatch: str | None, share: float) -> str:
+    """Return a row of the legend as HTML."""
+    stripes = f"repeating-linear-gradient(135deg, {hatch} 0 2px, transparent 2px 6px), " if hatch else ""
+    swatch = f'<i style="background: {stripes}{colour}"></i>'
+    return f"    <li>{swatch}<span>{escape(name)}</span><span>{percent(share)}</span></li>"
 
 
 FIXED = (

@@ -6,20 +6,26 @@ from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
-from rocking.model import Orbit, Proof, System, Verdict, check_start, instance, refusal, refuse_if, within
+from rocking.model import (
+    Orbit,
+    Proof,
+    System,
+    Verdict,
+    check_start,
+    instance,
+    refusal,
+    refuse_if,
+    require_extra,
+    within,
+)
 
-INSTALL = "run pip install '.[proof]' in a copy of the repository"
 MAX_HALF_WIDTH = 1.0
 
 
 def module(name: str) -> Any:
-    """Return a module of this package that computes with balls; ImportError with the remedy without python-flint."""
-    try:
-        return import_module(f"rocking.proof.{name}")
-    except ModuleNotFoundError as error:
-        if error.name != "flint":
-            raise
-        raise ImportError(f"proofs need python-flint ({INSTALL})", name="flint") from None
+    """Return a module of this package that computes with balls; ImportError without python-flint."""
+    require_extra("proof")
+    return import_module(f"rocking.proof.{name}")
 
 
 def prove(subject: Orbit | Verdict, uncertain: Mapping[str, float] | None = None) -> Proof:
@@ -100,7 +106,7 @@ def check_provable(system: System) -> None:
         raise ValueError(
             "proofs are available for the slender block only (omit critical_angle and model full)"
         )
-    module("balls")
+    require_extra("proof")
 
 
 def _checked(orbit: Orbit, uncertain: Mapping[str, float] | None, verdict: Verdict | None) -> Proof:

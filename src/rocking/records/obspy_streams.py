@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from rocking.model import missing_extra
 from rocking.records.channel import Channel, RecordError
 from rocking.records.content import Content
 
 FORMATS = ("MSEED", "SAC", "SACXY", "KINEMETRICS_EVT", "GSE2")
 """Formats of ObsPy that are tried. Each is named, because its search for the format also unpickles a file."""
-INSTALL = "run pip install '.[obspy]' in a copy of the repository"
 
 
 def is_stream(source: object) -> bool:
@@ -23,12 +23,10 @@ def is_stream(source: object) -> bool:
 
 def read(content: Content) -> list[Channel]:
     """Read the traces of a file in one of the formats; `RecordError` if ObsPy is not installed."""
-    try:
-        import obspy
-    except ImportError:
-        raise RecordError(
-            f"{content.name}: no known text format; ObsPy reads more formats: {INSTALL}"
-        ) from None
+    if message := missing_extra("obspy"):
+        raise RecordError(f"{content.name}: no known text format; {message}")
+    import obspy
+
     for name in FORMATS:
         try:
             with warnings.catch_warnings():

@@ -87,7 +87,7 @@ def basin_map(
 
     Raises
     ------
-    TypeError, ValueError, OSError
+    TypeError, ValueError, ImportError, OSError
         As in `parametric_map`.
 
     See Also

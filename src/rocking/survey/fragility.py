@@ -104,7 +104,7 @@ def fragility(
 
     Raises
     ------
-    TypeError, ValueError, OSError
+    TypeError, ValueError, ImportError, OSError
         As in `parametric_map`, or if two records have the same samples.
 
     See Also

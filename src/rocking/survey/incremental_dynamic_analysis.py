@@ -74,7 +74,7 @@ def incremental_dynamic_analysis(
 
     Raises
     ------
-    TypeError, ValueError, OSError
+    TypeError, ValueError, ImportError, OSError
         As in `parametric_map`, or if `angle` or `polarity` is an array.
 
     See Also

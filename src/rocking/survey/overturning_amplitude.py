@@ -71,7 +71,7 @@ def overturning_amplitude(
 
     Raises
     ------
-    TypeError, ValueError, OSError
+    TypeError, ValueError, ImportError, OSError
         As in `parametric_map`.
 
     See Also

@@ -55,7 +55,7 @@ def overturning_spectrum(
 
     Raises
     ------
-    TypeError, ValueError, OSError
+    TypeError, ValueError, ImportError, OSError
         As in `parametric_map`.
 
     See Also

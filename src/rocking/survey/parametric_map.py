@@ -76,6 +76,8 @@ def parametric_map(
     ValueError
         If an argument lies outside its range, if a map without store exceeds the memory, or if the store holds a
         different survey.
+    ImportError
+        If a store is given, and the extra ``store`` is not installed.
     OSError
         If the store is not a folder, is in use by another run, is damaged or cannot be written. The same if it is moved or deleted
         during the run.

@@ -67,7 +67,7 @@ def repeatability_map(
 
     Raises
     ------
-    TypeError, ValueError, OSError
+    TypeError, ValueError, ImportError, OSError
         As in `parametric_map`.
 
     See Also

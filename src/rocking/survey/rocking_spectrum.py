@@ -79,7 +79,7 @@ def rocking_spectrum(
 
     Raises
     ------
-    TypeError, ValueError, OSError
+    TypeError, ValueError, ImportError, OSError
         As in `parametric_map`.
 
     See Also

@@ -46,12 +46,6 @@ def explore(
     Shows a map of responses. For each point of the map: time history, Poincaré section, spectrum, basins and verdict.
     Other users of the computer cannot open the page: its address contains a token. The server runs until Ctrl-C.
     """
-    from importlib.util import find_spec
-
-    if find_spec("bokeh") is None:
-        raise YourInput(
-            "the explorer needs the package bokeh: run pip install '.[explorer]' in a copy of the repository"
-        )
     from rocking.explorer import serve
 
     try:

@@ -34,8 +34,8 @@ def reproduce(
     folder : str or Path
         Folder for the files; created if it does not exist.
     figures : iterable of str or int, optional
-        Figures 1 to 5, and the table "claims". Default: all of them, and the report index.html, also as PDF if WeasyPrint is
-        installed.
+        Figures 1 to 5, and the table "claims". Default: all of them, and the report index.html, also as PDF if the
+        libraries of WeasyPrint are available.
     progress : bool
         Whether to show on stderr the part of the cost that is done, and the steps that run. Default: False.
     summary : callable, optional
@@ -50,6 +50,8 @@ def reproduce(
     ------
     ValueError
         If a figure is unknown.
+    ImportError
+        If the report is wanted, and the extra ``report`` is not installed.
     OSError
         If the folder cannot be created or written.
 

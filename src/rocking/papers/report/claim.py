@@ -6,11 +6,12 @@ import inspect
 import re
 from collections.abc import Callable
 from enum import StrEnum
-from importlib.util import find_spec
 
 from attrs import evolve, frozen
 
-PROVABLE = find_spec("flint") is not None
+from rocking.model import missing_extra
+
+PROVABLE = not missing_extra("proof")
 """True if the extra `proof` is installed. Then the report proves its periodic responses, too."""
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 

@@ -105,7 +105,7 @@ def write(
     judgements: Sequence[Judgement],
     beyond: Sequence[Picture],
 ) -> list[Path]:
-    """Write the HTML page and, if WeasyPrint (extra ``report``) is available, the same page as PDF."""
+    """Write the HTML page and, if the libraries of WeasyPrint are available, the same page as PDF."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
@@ -144,10 +144,10 @@ def subscripts(text: str) -> str:
 
 
 def can_print() -> bool:
-    """Return whether WeasyPrint (extra ``report``) and the system libraries that it needs are available."""
+    """Return whether the system libraries that WeasyPrint needs are available."""
     try:
         import_module("weasyprint")
-    except (ImportError, OSError):
+    except OSError:
         return False
     return True
 

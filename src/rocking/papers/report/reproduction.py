@@ -10,7 +10,7 @@ import matplotlib.style
 from attrs import frozen
 
 import rocking as rk
-from rocking.model import Bar, check_folder, instance
+from rocking.model import Bar, check_folder, instance, require_extra
 from rocking.papers.report import page
 from rocking.papers.report.claim import Chapter
 from rocking.papers.report.workers import Step, carry_out
@@ -114,7 +114,12 @@ def write(
     progress: bool = False,
     summary: Callable[[str], object] | None = None,
 ) -> list[Path]:
-    """Write figures and tables of a paper, by default all of them and the report; return the paths."""
+    """Write figures and tables of a paper, by default all of them and the report; return the paths.
+
+    The report needs the extra ``report``: `ImportError` without it.
+    """
+    if figures is None:
+        require_extra("report")
     wanted = paper.known(paper.names if figures is None else figures)
     folder = check_folder("folder", folder)
     folder.mkdir(parents=True, exist_ok=True)

@@ -64,7 +64,7 @@ def reproduce(
     figures : iterable of str or int, optional
         Figures of the paper, 1 to 12, "13a" and "13b". Tables: "exponents" and "claims". Additional figures: "chaos", "cascade",
         "crisis", "threshold", "coexistence", "zoom" and "bifurcations". Default: all of them, and the report index.html, also as PDF if
-        WeasyPrint is installed.
+        the libraries of WeasyPrint are available.
     progress : bool
         Whether to show on stderr the part of the cost that is done, and the steps that run. Default: False.
     summary : callable, optional
@@ -79,6 +79,8 @@ def reproduce(
     ------
     ValueError
         If a figure is unknown.
+    ImportError
+        If the report is wanted, and the extra ``report`` is not installed.
     OSError
         If the folder cannot be created or written.
 

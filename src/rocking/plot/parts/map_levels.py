@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import refusal, refuse_if, resolve_path, shown_path
+from rocking.model import refusal, refuse_if, require_extra, resolve_path, shown_path
 from rocking.plot.parts.legend import NONE, looks
 
 if TYPE_CHECKING:
@@ -103,6 +103,7 @@ def _opened(folder: Path) -> list[xr.Dataset]:
 
     count = sum(1 for each in folder.glob("level-*") if each.is_dir())
     refuse_if(not count, "found", "be the folder of a map's store", str(folder))
+    require_extra("store")
     with _reading(folder):
         return [
             xr.open_zarr(folder, group=f"level-{number}", chunks=None, consolidated=False)

@@ -8,17 +8,18 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rocking.model import Bar, instance, shown_path
+from rocking.model import Bar, instance, require_extra, shown_path
 from rocking.survey.engine.cost import cost
 from rocking.survey.engine.progress import Watcher
 from rocking.survey.engine.tile_loop import cores, run
 from rocking.survey.measurement import Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.store.memory import Memory, check_fits
-from rocking.survey.store.store import Store, opened
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from rocking.survey.store.store import Store
 
 
 def run_survey(
@@ -44,6 +45,9 @@ def run_survey(
             results, executor, progress, "no results are kept (with store, running it again would resume it)"
         )
         return results.dataset()
+    require_extra("store")
+    from rocking.survey.store.store import opened
+
     with opened(store, asked, measure, repair=repair) as kept:
         _carry_out(
             kept, executor, progress, f"completed tiles are in {shown_path(store)}; run it again to resume"

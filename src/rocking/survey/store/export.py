@@ -78,9 +78,9 @@ def _count(name: str, table: Mapping[str, np.ndarray]) -> np.ndarray:
 
 def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
     """Write a dataset of any size to a netCDF file, completely or not at all."""
+    target = check_writable("path", path, (".nc",))
     import h5netcdf
 
-    target = check_writable("path", path, (".nc",))
     with replacing_hdf5(target) as opened, h5netcdf.File(opened, "w") as file:
         file.dimensions = {str(name): size for name, size in found.sizes.items()}
         file.attrs.update(_plain(found.attrs))

@@ -1,4 +1,7 @@
-"""Results of a survey in a Zarr store (format 3): written during the run, resumable after any interruption."""
+"""Results of a survey in a Zarr store (format 3): written during the run, resumable after any interruption.
+
+This module, `zarr_metadata` and `chunk_files` need the extra ``store``. They are imported for a survey with a store only.
+"""
 
 from __future__ import annotations
 
@@ -7,14 +10,17 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
+import zarr
 
 from rocking.model import listed, shown_path, takes_files, warn_of_input
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.store import tile_digests, zarr_metadata
+from rocking.survey.store.chunk_files import Files, encoded
 from rocking.survey.store.layout import (
     FORMAT,
     Layout,
@@ -40,10 +46,6 @@ from rocking.survey.store.locking import (
 )
 from rocking.survey.tiling import Level, Slices, Tile
 
-if TYPE_CHECKING:
-    import xarray as xr
-    import zarr
-
 NAME = "rocking_survey"
 """Attribute of the root group that identifies the store of a survey."""
 MAX_POINTS = 10**11
@@ -63,8 +65,6 @@ class Store:
     def __init__(
         self, path: Path, asked: SurveySpec, measure: Measurement, *, repair: bool, writable: bool
     ) -> None:
-        from rocking.survey.store.chunk_files import Files
-
         self.path, self.measure = path, measure
         self.files = Files(path)
         with defer_interrupt(), wrap_write_errors(path):
@@ -114,8 +114,6 @@ class Store:
 
     def write(self, tile: Tile, answers: Arrays) -> None:
         """Write the results of a tile, at last its digests, which mark it as complete."""
-        from rocking.survey.store.chunk_files import encoded
-
         held = self._held(tile.level)
         chunks = {
             each.name: encoded(answers[each.name], tile.level.tile, each.fill)
@@ -229,8 +227,6 @@ class Store:
 
         The key is None for a store whose tiles have no digests.
         """
-        import zarr
-
         mine = fingerprint(asked, self.measure)
         if not (self.path / ROOT).exists():
             layout = new_layout(asked)
@@ -301,8 +297,4 @@ def opened(
 
 def open_level(path: Path, number: int) -> xr.Dataset:
     """Return a level of a store, which is read on access."""
-    import xarray as xr
-
-    from rocking.survey.store.chunk_files import Files
-
     return xr.open_zarr(Files(path, read_only=True), group=f"level-{number}", chunks=None, consolidated=False)

@@ -4,27 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import zarr
+from zarr.core.group import GroupMetadata
+from zarr.core.metadata import ArrayV3Metadata
 
 from rocking.survey.measurement import Measurement
 from rocking.survey.spec import SurveySpec
+from rocking.survey.store.chunk_files import Files, codecs, encoded
 from rocking.survey.store.dataset import attributes
 from rocking.survey.tiling import Level
-
-if TYPE_CHECKING:
-    import zarr
-
-    from rocking.survey.store.chunk_files import Files
 
 
 def make_groups(
     files: Files, asked: SurveySpec, measure: Measurement, levels: list[Level], there: dict[str, Any]
 ) -> list[zarr.Group]:
     """Return one group for each level, with the attributes of the survey; groups that are not ``there`` are created."""
-    from zarr.core.group import GroupMetadata
-
     metadata = _plain(attributes(asked, measure))
     found = _made(files, {level.name: GroupMetadata(metadata) for level in levels}, there)
     for group in found.values():
@@ -72,11 +69,9 @@ def _made(files: Files, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> 
 
     They are created one at a time, because Zarr prints all but the first of several simultaneous errors on stderr.
     """
-    from zarr import create_hierarchy
-
     found = {path: there.get(path) for path in wanted}
     for path in [path for path, known in found.items() if known is None]:
-        found |= create_hierarchy(store=files, nodes={path: wanted[path]})
+        found |= zarr.create_hierarchy(store=files, nodes={path: wanted[path]})
     return found
 
 
@@ -101,10 +96,6 @@ def _array(
     names: list[str],
     metadata: dict[str, Any],
 ) -> Any:
-    from zarr.core.metadata import ArrayV3Metadata
-
-    from rocking.survey.store.chunk_files import codecs
-
     return ArrayV3Metadata.from_dict(
         {
             "zarr_format": 3,
@@ -130,8 +121,6 @@ def _sized(array: zarr.Array, shape: tuple[int, ...]) -> zarr.Array:
 
 def _chunks(array: zarr.Array, values: np.ndarray) -> Iterator[tuple[str, bytes]]:
     """Yield the key and the content of each file of a coordinate; an extended axis has several files."""
-    from rocking.survey.store.chunk_files import encoded
-
     (edge,) = array.chunks
     for number, first in enumerate(range(0, values.size, edge)):
         yield f"{array.path}/c/{number}", encoded(values[first : first + edge], (edge,), math.nan)
