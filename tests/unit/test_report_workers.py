@@ -102,6 +102,14 @@ def test_interrupt_ends_the_processes(limit, monkeypatch):
     assert [process.returncode for process in started] == [0, 0]
 
 
+def test_interrupted_report_ends_in_one_line_and_leaves_whole_files_only(interrupted, tmp_path):
+    code, out, err = interrupted("paper --output made", 8.0)
+    assert (code, out) == (130, b"")
+    assert err.splitlines()[-1] == b"rocking: interrupted"
+    assert b"Traceback" not in err
+    assert not list(tmp_path.rglob(".*"))
+
+
 def test_shared_result_is_computed_once_for_all_processes(tmp_path, monkeypatch):
     calls = []
 

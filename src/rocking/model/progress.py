@@ -106,7 +106,7 @@ class Bar:
 
     Examples
     --------
-    >>> with Bar(100, "random states", shown=False) as bar:
+    >>> with Bar(100, "random states", shown=False, clock=lambda: 0.0) as bar:
     ...     bar.advance(25)
     ...     print(bar.state()[0])
     random states 25 %, 0:00:00 left
