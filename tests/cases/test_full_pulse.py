@@ -15,7 +15,6 @@ from oracles.full_block import DIGITS, Block, Pulse
 from rocking.kernels.forcing.full import pulse_base
 from rocking.motion.kernel_parameters import parameters
 
-COMPILES = pytest.mark.xdist_group("full_pulse")  # its kernels are compiled once
 ROUNDING = 2.0**-53
 FORMS = {"half-sine": (0.5, -math.pi / 2), "one-sine": (1.0, -math.pi / 2), "one-cosine": (1.0, 0.0)}
 """Turns and phase of each pulse."""
@@ -225,7 +224,6 @@ def kernels():
     return at, later, ahead, change
 
 
-@COMPILES
 def test_largest_acceleration_ahead_is_the_least_bound(kernels):
     random = np.random.default_rng(3)
     for kind in FORMS:
@@ -240,7 +238,6 @@ def test_largest_acceleration_ahead_is_the_least_bound(kernels):
                     assert largest - 1e-14 <= bound <= largest + 1e-5
 
 
-@COMPILES
 def test_change_within_a_time_includes_the_jump_at_the_end(kernels):
     random, jumps = np.random.default_rng(4), 0
     for kind in FORMS:
@@ -255,7 +252,6 @@ def test_change_within_a_time_includes_the_jump_at_the_end(kernels):
     assert jumps > 0
 
 
-@COMPILES
 def test_drive_has_no_base_acceleration_from_the_end_on(kernels):
     p = parameters(rk.System(rk.Pulse("one-cosine", amplitude=2.0, duration=0.3), 0.9, critical_angle=0.3))
     at, later = kernels[:2]
