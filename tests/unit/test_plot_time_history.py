@@ -70,11 +70,11 @@ def test_rest_and_leaning_take_no_instants_from_the_grid():
 
 def test_long_motion_keeps_its_shape_and_its_file_stays_small(tmp_path):
     fast = rk.System(rk.Harmonic(amplitude=1000.0, period=0.0063), restitution=0.9)
-    motion = rk.simulate(fast, cycles=2_000)
+    motion = rk.simulate(fast, cycles=10_000)
     for draw in (rk.plot.time_history, rk.plot.phase_portrait):
         ax = draw(motion)
         (line,) = (line for line in ax.lines if line.get_gid() == "motion")
-        assert 80_000 < len(line.get_xdata()) < 120_000
+        assert 400_000 < len(line.get_xdata()) < 600_000
         assert rk.plot.save(ax, tmp_path / "a.svg").stat().st_size < 500_000
 
 
