@@ -95,6 +95,11 @@ def name_of(case):
     return f"{case.kind}-{case.level:g}-{case.angle:g}"
 
 
+def sampled(cases):
+    """Mark all cases but every third one as long: each takes seconds in many digits."""
+    return [pytest.param(case, marks=pytest.mark.long) if k % 3 else case for k, case in enumerate(cases)]
+
+
 def errors(case, motion, time):
     """Return the errors of the state at a time, those that are allowed, and the impacts of the oracle."""
     with mp.workdps(DIGITS):
@@ -116,7 +121,7 @@ def compare(case):
     return motion, time, impacts
 
 
-@pytest.mark.parametrize("case", FLYING + FALLING, ids=name_of)
+@pytest.mark.parametrize("case", sampled(FLYING) + sampled(FALLING), ids=name_of)
 def test_states_are_those_of_collocation(case):
     motion, time, impacts = compare(case)
     assert (motion.outcome is rk.Outcome.OVERTURNED) == (case.time == math.inf)
@@ -126,7 +131,7 @@ def test_states_are_those_of_collocation(case):
     assert impacts == times.size
 
 
-@pytest.mark.parametrize("case", [RESTING[0], *SLOW], ids=name_of)
+@pytest.mark.parametrize("case", sampled([RESTING[0], *SLOW]), ids=name_of)
 def test_block_that_rests_before_the_end_lifts_off_again_at_the_same_time(case):
     motion, time, _ = compare(case)
     lifts = motion.events["time"][motion.events["kind"] == "lift-off"]
