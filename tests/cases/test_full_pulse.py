@@ -88,7 +88,6 @@ RESTING = [
     Case("one-cosine", 1.2, 6.0, 0.1, 0.2, 5.0),
 ]
 # By collocation they take ten seconds each.
-SLOW = [pytest.param(case, marks=pytest.mark.long) for case in RESTING[1:]]
 
 
 def name_of(case):
@@ -97,7 +96,7 @@ def name_of(case):
 
 def sampled(cases):
     """Mark all cases but every third one as long: each takes seconds in many digits."""
-    return [pytest.param(case, marks=pytest.mark.long) if k % 3 else case for k, case in enumerate(cases)]
+    return [pytest.param(case, marks=[pytest.mark.long] if k % 3 else []) for k, case in enumerate(cases)]
 
 
 def errors(case, motion, time):
@@ -131,7 +130,8 @@ def test_states_are_those_of_collocation(case):
     assert impacts == times.size
 
 
-@pytest.mark.parametrize("case", sampled([RESTING[0], *SLOW]), ids=name_of)
+@pytest.mark.long
+@pytest.mark.parametrize("case", RESTING, ids=name_of)
 def test_block_that_rests_before_the_end_lifts_off_again_at_the_same_time(case):
     motion, time, _ = compare(case)
     lifts = motion.events["time"][motion.events["kind"] == "lift-off"]
