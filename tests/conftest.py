@@ -17,20 +17,18 @@ REPORTED = threading.Event()
 
 
 class Reproduced(NamedTuple):
-    """Report as `make reproduce` writes it: folder, files written, and progress calls."""
+    """Report as `make reproduce` writes it: folder and files written."""
 
     folder: Path
     paths: Sequence[Path]
-    calls: Sequence[tuple[int, int, str]]
 
 
 @pytest.fixture(scope="session")
 def reproduced(tmp_path_factory):
     from rocking.papers.yim_lin_1991 import reproduce
 
-    folder, calls = tmp_path_factory.mktemp("figures") / "made" / "here", []
-    paths = reproduce(folder, progress=lambda *call: calls.append(call))
-    return Reproduced(folder, paths, calls)
+    folder = tmp_path_factory.mktemp("figures") / "made" / "here"
+    return Reproduced(folder, reproduce(folder))
 
 
 def pytest_addoption(parser):

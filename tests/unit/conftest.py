@@ -24,6 +24,17 @@ def rocking(monkeypatch, tmp_path, capsys):
 
 
 @pytest.fixture
+def terminal(monkeypatch, capsys):
+    """Make stderr a terminal of 200 columns; return a function that gives what was written to it, line by line."""
+    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(type(sys.stderr), "isatty", lambda stream: stream is sys.stderr)
+    return lambda: [
+        line.rpartition("\r\x1b[K")[2] for line in capsys.readouterr().err.rstrip("\n").split("\n")
+    ]
+
+
+@pytest.fixture
 def interrupted(tmp_path):
     """Type a command line in an empty folder, and Ctrl-C ``seconds`` later; return exit code, stdout and stderr."""
 

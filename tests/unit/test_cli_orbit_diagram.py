@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 
 import numpy as np
 import pytest
@@ -191,17 +192,12 @@ def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
     assert (code, message.strip(), out) == (1, "internal error: ZeroDivisionError:", "")
 
 
-def test_long_run_in_a_terminal_shows_a_bar_that_leaves_nothing_behind(rocking, monkeypatch, capsys):
-    monkeypatch.setenv("FORCE_COLOR", "1")
-    monkeypatch.setattr("rocking.cli.input.orbit_diagram_request.LONG", 0)
+def test_run_in_a_terminal_shows_a_bar_on_stderr(terminal, monkeypatch):
     monkeypatch.setattr("sys.argv", ["rocking", "orbit-diagram", *LINE.split()])
     from rocking.cli.main import run
 
     assert run() == (0, "")
-    out, err = capsys.readouterr()
-    assert "--amplitude" in err
-    assert "%" in err
-    assert "%" not in out
+    assert re.fullmatch(r"\[#{20}\] orbit diagram 100 % in 0:00:\d\d", terminal()[-1])
 
 
 def test_interrupted_diagram_says_so_and_leaves_no_file(interrupted, tmp_path):

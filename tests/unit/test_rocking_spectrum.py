@@ -284,12 +284,11 @@ def test_neighbours_with_equal_record_and_frequency_parameter_are_one_stretch():
     assert [(part.start, part.stop) for part in parts] == list(pairwise(range(0, 9, 2)))
 
 
-def test_bar_says_the_number_of_points_and_ends_with_the_outcomes(capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "160")
+def test_bar_says_the_number_of_points_and_ends_with_the_outcomes(terminal):
     rk.rocking_spectrum(RECORDS, **ASKED, progress=True)
-    shown = " ".join(capsys.readouterr().err.split())
-    assert re.match(r"900 points in \d+ tiles?", shown)
-    assert "100%" in shown
-    assert "overturned" in shown
+    title, last = terminal()
+    assert re.match(r"900 points in \d+ tiles?", title)
+    assert "100 %" in last
+    assert "overturned" in last
     rk.rocking_spectrum(RECORDS, **ASKED)
-    assert capsys.readouterr() == ("", "")
+    assert terminal() == [""]

@@ -292,21 +292,20 @@ def test_no_runs_are_added_that_do_not_narrow_an_interval():
     assert found.attractor_exponent.uncertain[0].of < 100_000
 
 
-def test_progress_shows_random_states_and_boundary_runs(capsys):
+def test_progress_shows_random_states_and_boundary_runs(terminal):
     rk.basin_map(MANY, angle=(-1, 1), velocity=(-1, 1), samples=500, boundary_runs=3_000, progress=True)
-    shown = capsys.readouterr().err
-    assert "initial states" in shown
-    assert "boundary runs" in shown
+    states, runs = terminal()
+    assert "initial states 100 %" in states
+    assert "boundary runs 100 %" in runs
 
 
-def test_progress_of_a_safe_basin_counts_the_states_of_all_amplitudes(capsys):
+def test_progress_of_a_safe_basin_counts_the_states_of_all_amplitudes(terminal):
     given = {"amplitude": [3.0, 6.0], "period": 1.0, "restitution": 0.8, "samples": 300}
     quiet = rk.safe_basin(**given)
-    assert capsys.readouterr().err == ""
+    assert terminal() == [""]
     assert rk.safe_basin(**given, progress=True).shares == quiet.shares
-    shown = capsys.readouterr().err
-    assert "initial states" in shown
-    assert "100%" in shown
+    (last,) = terminal()
+    assert "initial states 100 %" in last
 
 
 @pytest.mark.parametrize(

@@ -70,6 +70,7 @@ def test_times_are_told_to_what_is_known_of_them(seconds, told):
 def test_cost_is_one_line():
     cost = Cost(1_000_000, 23, 0, 24.0)
     assert cost.describe(2) == "1,000,000 points in 23 tiles, about 12 s on 2 cores"
+    assert Cost(1_000_000, 23, 0, 24.0, at_least=True).describe(2).endswith("more than 12 s on 2 cores")
     assert cost.describe(1).endswith("about 24 s on 1 core")
     assert cost.describe(None).endswith("about 24 s on one core")
     assert "1,000,000 points in 23 tiles, 250,000 of them computed before, about" in Cost(

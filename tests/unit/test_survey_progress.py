@@ -1,11 +1,15 @@
 """Reports during a survey: predicted cost and progress."""
 
 import re
+import threading
+from concurrent.futures import Future
 
 import numpy as np
 
 import rocking as rk
-from rocking.model import percent
+from rocking.model import Bar, percent
+from rocking.survey.engine import cost
+from rocking.survey.engine.progress import count_when_done
 
 ASKED = {
     "amplitude": np.linspace(0.0, 16.0, 80),
@@ -15,31 +19,62 @@ ASKED = {
 }
 
 
-def words(text):
-    return " ".join(text.split())
-
-
-def test_bar_says_the_cost_and_ends_with_the_shares(capsys, monkeypatch, tmp_path):
-    monkeypatch.setenv("COLUMNS", "160")
+def test_bar_says_the_cost_and_ends_with_the_shares(terminal, tmp_path):
     found = rk.parametric_map(**ASKED, progress=True, store=tmp_path / "map.zarr")
-    told = words(capsys.readouterr().err)
-    assert re.match(r"6,400 points in 13 tiles, about [\d.]+ s on \d+ cores? ", told)
-    assert "100%" in told
+    title, last = terminal()
+    assert re.fullmatch(r"6,400 points in 13 tiles, (about|more than) [\d.]+ s on \d+ cores?", title)
+    assert re.match(r"\[#{20}\] 100 % in 0:00:\d\d, [\d,]+ points/s: ", last)
     shares = [float((found.kind == number).mean()) for number in range(6)]
     for kind, share in zip(rk.Kind, shares, strict=True):
-        assert (f"{kind} {percent(share)}" in told) == (share > 0)
+        assert (f"{kind} {percent(share)}" in last) == (share > 0)
 
 
-def test_what_an_earlier_run_did_counts_as_done(capsys, monkeypatch, tmp_path):
-    monkeypatch.setenv("COLUMNS", "160")
+def test_what_an_earlier_run_did_counts_as_done(terminal, tmp_path):
     rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
     rk.parametric_map(**ASKED, store=tmp_path / "map.zarr", progress=True)
-    told = words(capsys.readouterr().err)
-    assert "6,400 points in 13 tiles, 6,400 of them computed before, about 0 s on" in told
-    assert "100%" in told
-    assert "periodic" in told
+    title, last = terminal()
+    assert "6,400 points in 13 tiles, 6,400 of them computed before, about 0 s on" in title
+    assert re.match(r"\[#{20}\] 100 % in 0:00:\d\d: .*periodic", last)
 
 
 def test_nothing_is_said_unless_asked_for(capsys):
     rk.parametric_map(**ASKED)
     assert capsys.readouterr() == ("", "")
+
+
+def test_log_holds_nothing_about_a_short_survey(capsys):
+    rk.parametric_map(**ASKED | {"amplitude": [1.0, 2.0]}, progress=True)
+    assert capsys.readouterr() == ("", "")
+
+
+def test_sample_that_takes_too_long_gives_a_lower_bound(terminal, monkeypatch):
+    monkeypatch.setattr(cost, "MAX_SECONDS", 0.0)
+    asked = ASKED | {"restitution": 1.0, "max_cycles": 10_000}
+    rk.parametric_map(**asked, progress=True)
+    title, _ = terminal()
+    assert ", more than " in title
+
+
+def test_points_count_when_their_batch_ends():
+    bar = Bar(30, shown=False)
+    done, failed, cancelled = Future(), Future(), Future()
+    with bar:
+        for batch in (done, failed, cancelled):
+            count_when_done(bar, batch, 10)
+        assert bar.estimate.done == 0
+        failed.set_exception(ValueError())
+        cancelled.cancel()
+        done.set_result({})
+    assert bar.estimate.done == 10
+
+
+def test_bifurcation_set_shows_its_curves(terminal):
+    system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
+    rk.bifurcation_set(system, 1, grid=2, period=(1.5, 2.5), amplitude=(3.0, 12.0), progress=True)
+    (last,) = terminal()
+    assert re.fullmatch(r"\[#{20}\] bifurcation set 100 % in 0:00:\d\d: 2 curves", last)
+
+
+def test_thread_of_a_bar_ends_with_the_work(terminal):
+    rk.parametric_map(**ASKED, progress=True)
+    assert "progress" not in {thread.name for thread in threading.enumerate()}

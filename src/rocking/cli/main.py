@@ -108,7 +108,8 @@ def refused(error: Exception) -> tuple[int, str]:
     if isinstance(error, OSError) and error.errno in FULL:
         discard_stdout()
         return 2, f"the output cannot be written: {error.strerror} (free some space, or redirect the output)"
-    return 1, f"internal error: {type(error).__name__}: {error}"
+    notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
+    return 1, f"internal error: {type(error).__name__}: {error}{notes}"
 
 
 def lacking(error: BaseException | None) -> BaseException | None:

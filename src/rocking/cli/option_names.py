@@ -55,6 +55,15 @@ def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
         raise YourInput(as_typed(str(error), typed or {})) from error
 
 
+@contextmanager
+def computing(typed: Mapping[str, str] | None = None) -> Iterator[None]:
+    """Convert errors as `your_input` does, and show on stderr the time that a long computation takes."""
+    from rocking.model import Bar
+
+    with your_input(typed), Bar(what="computing"):
+        yield
+
+
 def as_typed(text: str, typed: Mapping[str, str]) -> str:
     """Replace arguments in a text by their names in `typed`, except inside quotation marks, which may hold a path."""
     if not typed:

@@ -57,6 +57,7 @@ from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.overturning_set import SWITCH_ROW, OverturningSet, intervals_of
 from rocking.model.piecewise_linear import PiecewiseLinear
+from rocking.model.progress import Bar
 from rocking.model.proof import Horseshoe, Proof, ProvedShare
 from rocking.model.pulse import KINDS, SINES, Pulse
 from rocking.model.record_file import RecordFile
@@ -141,6 +142,7 @@ __all__ = [
     "TILES",
     "VERSION",
     "Attractor",
+    "Bar",
     "BaseMotion",
     "BasinMap",
     "Block",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import NotebookPicture, System, counted, instance, one_of, refusal, whole
+from rocking.model import Bar, NotebookPicture, System, counted, instance, one_of, refusal, whole
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
@@ -79,7 +79,13 @@ class BifurcationSet(NotebookPicture):
 
 
 def bifurcation_set(
-    system: System, max_period: int, *, grid: int = 12, step: float = 0.01, **ranges: Range
+    system: System,
+    max_period: int,
+    *,
+    grid: int = 12,
+    step: float = 0.01,
+    progress: bool = False,
+    **ranges: Range,
 ) -> BifurcationSet:
     """Search for all bifurcation curves of periodic orbits in the plane of two parameters.
 
@@ -97,6 +103,8 @@ def bifurcation_set(
         Number of values of each parameter at which orbits are searched for, in [1, 200]. Default: 12.
     step : float
         Largest step along branches and curves, as in `bifurcation_curve`. Default: 0.01.
+    progress : bool
+        Whether to show on stderr the part of the grid that is done, and the number of curves. Default: False.
     **ranges : (float, float)
         Lowest and highest value of two parameters, by their names as in `continue_orbit`: ``period=(0.5, 3), amplitude=(1, 16)``.
 
@@ -145,10 +153,11 @@ def bifurcation_set(
     first, second = ranges
     bounds = check_range(first, ranges[first], first), check_range(second, ranges[second], second)
     _ = system.harmonic  # refuses other base motions, and the full block
-    search = _Search((first, second), bounds, longest, step)
-    for value in _middles(bounds[0], number):
-        at_value = with_value(system, first, value)
-        search.along([with_value(at_value, second, other) for other in _middles(bounds[1], number)])
+    with Bar(number**2, "bifurcation set", shown=instance("progress", progress, bool)) as bar:
+        search = _Search((first, second), bounds, longest, step, bar)
+        for value in _middles(bounds[0], number):
+            at_value = with_value(system, first, value)
+            search.along([with_value(at_value, second, other) for other in _middles(bounds[1], number)])
     curves = sorted(search.curves, key=lambda curve: (curve.period, curve.kind, curve.impacts))
     return BifurcationSet(system, (first, second), bounds, longest, tuple(curves), search.not_followed)
 
@@ -157,9 +166,9 @@ class _Search:
     """Curves that are known so far."""
 
     def __init__(
-        self, names: tuple[str, str], bounds: tuple[Range, Range], max_period: int, step: float
+        self, names: tuple[str, str], bounds: tuple[Range, Range], max_period: int, step: float, bar: Bar
     ) -> None:
-        self.names, self.bounds, self.max_period, self.step = names, bounds, max_period, step
+        self.names, self.bounds, self.max_period, self.step, self.bar = names, bounds, max_period, step, bar
         self.curves: list[BifurcationCurve] = []
         self.alone: list[SpecialPoint] = []
 
@@ -175,6 +184,7 @@ class _Search:
                         seen.add(key)
                         self.add(special)
                         branches += self.born_at(special)
+            self.bar.advance(1)
 
     def branches_of(self, system: System) -> Iterator[Branch]:
         """Yield the branches of all orbits of a system; an orbit without events is a saddle orbit, whose branch has no end."""
@@ -203,6 +213,7 @@ class _Search:
             return
         if len(curve) > 1:
             self.curves.append(curve)
+            self.bar.text = counted(len(self.curves), "curve")
         else:
             self.alone.append(special)
 

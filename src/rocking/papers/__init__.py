@@ -11,5 +11,5 @@ PAPERS = {
 
 
 def room_of(name: str) -> ModuleType:
-    """Return the module of a report, with `reproduce` and `PAGE`."""
+    """Return the module of a report, with `reproduce`, `PAPER` and `PAGE`."""
     return import_module(f"{__name__}.{name.replace('-', '_')}")

@@ -63,7 +63,7 @@ class Boundaries:
         starts = tried.reshape(-1, 2)
         if self.system.braces is not None:
             starts[:, 0] = np.clip(starts[:, 0], -self.system.braces.angle, self.system.braces.angle)
-        shown = "boundary runs" if self.progress else None
+        shown = "boundary runs" if self.progress else ""
         return sampled(points_of(self.system, starts), self.measure, self.executor, shown), tried
 
     def _fitted(self, found: dict[str, np.ndarray], starts: np.ndarray) -> Exponents:

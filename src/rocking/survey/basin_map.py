@@ -141,7 +141,7 @@ def basin_map(
         reach = MAX_START if system.braces is None else system.braces.angle
         check_between(max(ends["angle"], key=abs), reach)
         starts = random.uniform(*_corners(ends), (whole("samples", samples, 1, MAX_SAMPLES), 2))
-        shown = "initial states" if instance("progress", progress, bool) else None
+        shown = "initial states" if instance("progress", progress, bool) else ""
         answers = sampled(points_of(system, starts), measure, executor, shown)
         found = _random_dataset(system, starts, measure, answers).assign_attrs(seed=seed)
     labels, first = label_attractors(system, {str(name): found[name].values for name in found.data_vars})

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import RANGES, SafeBasin, Share, instance, refusal, whole
+from rocking.model import RANGES, Bar, SafeBasin, Share, instance, refusal, whole
 from rocking.survey.harmonic_spec import HarmonicSpec, Points, coordinate, points, question
 from rocking.survey.measures.kind import interval_variables, outcome
-from rocking.survey.sampling.random_points import MAX_SAMPLES, counted, generator, sampled, span
+from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
 from rocking.survey.store.dataset import attributes
 from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
 
@@ -63,7 +63,7 @@ def safe_basin(
     executor : concurrent.futures.Executor, optional
         Executor that runs the computation. Default: threads on all cores.
     progress : bool
-        Whether to print a progress bar on stderr. Default: False.
+        Whether to show the progress on stderr. Default: False.
 
     Returns
     -------
@@ -115,12 +115,11 @@ def safe_basin(
     low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
     starts = generator(seed).uniform(low, high, (whole("samples", samples, 1, MAX_SAMPLES), 2))
     amplitudes, kinds = asked.axes["amplitude"].tolist(), []
-    with counted(
-        "initial states" if instance("progress", progress, bool) else None, len(amplitudes) * len(starts)
-    ) as add:
+    total = len(amplitudes) * len(starts)
+    with Bar(total, "initial states", shown=instance("progress", progress, bool)) as bar:
         for value in amplitudes:
             kinds.append(sampled(_placed(asked, value, starts), measure, executor)["kind"])
-            add(len(starts))
+            bar.advance(len(starts))
     drawn = {"seed": seed, "angle_range": [low[0], high[0]], "velocity_range": [low[1], high[1]]}
     return _summed_up(asked, measure, kinds, drawn)
 

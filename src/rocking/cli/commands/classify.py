@@ -8,7 +8,7 @@ import typer
 
 from rocking.cli.input import options as ask
 from rocking.cli.input.study_option import with_study
-from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, your_input
+from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, computing
 
 EXAMPLES = """\
 # Normalised input.
@@ -39,7 +39,7 @@ def classify(
 
     motion_files.check_picture(plot)
     system, start, block = ask.question(context.params)
-    with your_input(ARGUMENTS):
+    with computing(ARGUMENTS):
         verdict = judge(system, start, max_cycles, max_period, prove)
     if plot is not None:
         motion_files.write_verdict(verdict, block, plot)

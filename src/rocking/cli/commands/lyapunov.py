@@ -9,7 +9,7 @@ import typer
 
 from rocking.cli.input import options as ask
 from rocking.cli.input.study_option import with_study
-from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, options, your_input
+from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, computing, options
 
 EXAMPLES = """\
 # Normalised input.
@@ -59,7 +59,7 @@ def lyapunov(
 
     files = check_files({"plot": plot, "csv": csv, "netcdf": netcdf})
     system, start, block = ask.question(context.params)
-    with your_input(ARGUMENTS | options("transient")):
+    with computing(ARGUMENTS | options("transient")):
         spectrum = measure(system, start, cycles, transient)
     report.write(spectrum, block, files)
     report.show(spectrum, block, list(files.values()), as_json=json)

@@ -9,7 +9,7 @@ import typer
 
 from rocking.cli.input import options as ask
 from rocking.cli.input.study_option import with_study
-from rocking.cli.option_names import ARGUMENTS, SYSTEM, options, your_input
+from rocking.cli.option_names import ARGUMENTS, SYSTEM, computing, options
 
 EXAMPLES = """\
 # Orbits of a period up to 3 forcing cycles, stable and unstable.
@@ -57,7 +57,7 @@ def orbits(
 
     files = check_files({"csv": csv, "netcdf": netcdf})
     system, _, block = ask.question(context.params)
-    with your_input(ARGUMENTS | options("effort", "seed")):
+    with computing(ARGUMENTS | options("effort", "seed")):
         found = find_orbits(system, max_period, effort=effort, seed=seed, prove=prove)
     report.write(found, block, files)
     report.show(found, block, list(files.values()), as_json=json)

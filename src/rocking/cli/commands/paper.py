@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from rocking.cli.option_names import YourInput, as_typed, your_input
+from rocking.cli.option_names import your_input
 
 EXAMPLES = """\
 # Figures 1 and 4 of Yim & Lin (1991) only.
@@ -43,42 +43,18 @@ def paper(
         for known, title in PAPERS.items():
             print(f"{known}  {title}")
         return
+    from rocking.model import check_folder
+
     name, *rest = figures if figures and figures[0] in PAPERS else (next(iter(PAPERS)), *(figures or ()))
+    room = room_of(name)
     folder = Path("results") / name if output is None else output
+    with your_input({"figures": "FIGURE"}):
+        check_folder("--output", folder)
+        room.PAPER.known(rest)
     last: list[str] = []
-    files = _written(name, folder, rest, last)
-    for path in files:
+    for path in room.reproduce(folder, rest or None, progress=True, summary=last.append):
         print(f"wrote {path}")
     if not rest:
-        last.append(f"open {folder / room_of(name).PAGE}")
+        last.append(f"open {folder / room.PAGE}")
     if last:
         print("; ".join(last))
-
-
-def _written(name: str, folder: Path, figures: list[str], last: list[str]) -> list[Path]:
-    """Write figures of a report, all by default, with a progress bar; append the summary of the claims to `last`."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    from rocking.model import check_folder
-    from rocking.papers import room_of
-
-    with your_input():
-        check_folder("--output", folder)
-    bar = Progress(console=Console(stderr=True))
-
-    def advance(done: int, total: int, step: str) -> None:
-        if not bar.tasks:
-            bar.start()
-            bar.add_task("", total=total)
-        bar.update(bar.task_ids[0], completed=done, description=step)
-
-    try:
-        return room_of(name).reproduce(folder, figures or None, advance, last.append)
-    except (ValueError, OSError) as error:
-        if bar.tasks:
-            raise  # drawing has begun: the error is not in the input
-        raise YourInput(as_typed(str(error), {"figures": "FIGURE"})) from error
-    finally:
-        if bar.tasks:
-            bar.stop()

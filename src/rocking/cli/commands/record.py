@@ -10,7 +10,7 @@ import typer
 from rocking.cli.input import options as ask
 from rocking.cli.input import record_request, record_source
 from rocking.cli.input.study_option import with_study
-from rocking.cli.option_names import START, your_input
+from rocking.cli.option_names import START, computing
 
 EXAMPLES = """\
 # The record that comes with the package.
@@ -79,7 +79,7 @@ def record(
     files = motion_files.check_of_record(plot=plot, animate=animate, csv=csv, netcdf=netcdf)
     block, braces, start = record_request.block_and_start(context.params)
     ground, doubts = record_request.ground_motion(context.params)
-    with your_input(record_request.ARGUMENTS):
+    with computing(record_request.ARGUMENTS):
         motion = motion_files.run(
             block.system(ground, braces=braces, model=model or "slender"), start, None, tuple(files)
         )

@@ -8,7 +8,7 @@ import typer
 
 from rocking.cli.input import options as ask
 from rocking.cli.input.study_option import with_study
-from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, YourInput, your_input
+from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, YourInput, computing
 
 CYCLES = 200
 EXAMPLES = """\
@@ -47,7 +47,7 @@ def simulate(
     count = None if pulse is not None else CYCLES if cycles is None else cycles
     files = motion_files.check(count or 0, plot=plot, csv=csv, netcdf=netcdf)
     system, start, block = ask.question(context.params)
-    with your_input(ARGUMENTS):
+    with computing(ARGUMENTS):
         motion = motion_files.run(system, start, count, tuple(files))
     for name, path in files.items():
         motion_files.WRITERS[name](motion, block, path)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rocking.cli.input.axis import VARIES, Range, check_displacement
 from rocking.cli.input.options import question
-from rocking.cli.option_names import RANGE_FORM, YourInput, option, options, your_input
+from rocking.cli.option_names import RANGE_FORM, YourInput, computing, option, options, your_input
 
 if TYPE_CHECKING:
     from rocking.model import Block, Orbit, State, System
@@ -74,7 +74,7 @@ def compute(study: Study, response_period: int | None, step: float) -> tuple[Orb
         check_range(study.parameter, study.bounds)
         check_step(step)
     orbit = _approached(study) if response_period is None else _nearest(study, response_period)
-    with your_input(typed):
+    with computing(typed):
         return orbit, continue_orbit(orbit, study.parameter, study.bounds, step)
 
 
@@ -82,7 +82,7 @@ def _approached(study: Study) -> Orbit:
     """Return the orbit that the response from the initial state approaches."""
     from rocking.response import classify
 
-    with your_input():
+    with computing():
         verdict = classify(study.system, study.start)
     if verdict.orbit is None:
         raise YourInput(
@@ -99,7 +99,7 @@ def _nearest(study: Study, response_period: int) -> Orbit:
 
     start = study.start
     given = {repr(start): f"--angle {start.angle:.6g} and --velocity {start.velocity:.6g}"}
-    with your_input(GUESS | given):
+    with computing(GUESS | given):
         period = whole("--response-period", response_period, 1, MAX_RESPONSE_PERIOD)
         orbit = find_orbit(study.system, start, period)
     if orbit.period != period:

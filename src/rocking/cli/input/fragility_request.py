@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
@@ -41,4 +40,4 @@ def compute(asked: level_request.Question) -> Fragility:
     from rocking.survey import fragility
 
     with your_input(asked.typed):
-        return fragility(**asked.arguments, progress=sys.stderr.isatty())
+        return fragility(**asked.arguments, progress=True)

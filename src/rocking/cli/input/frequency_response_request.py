@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rocking.cli.input.axis import VARIES, Axis
 from rocking.cli.input.options import NORMALISED_NEEDS, kinds, question, require
-from rocking.cli.option_names import option, options, your_input
+from rocking.cli.option_names import computing, option, options
 
 if TYPE_CHECKING:
     import numpy as np
@@ -65,7 +65,7 @@ def compute(study: Study, modes: Sequence[int] | None, step: float, max_cycles: 
     """Compute the frequency response; YourInput if an argument is invalid."""
     from rocking.orbits import frequency_response
 
-    with your_input(study.names | WORDS | options("restitution", "step", "max_cycles")):
+    with computing(study.names | WORDS | options("restitution", "step", "max_cycles")):
         return frequency_response(
             **{study.parameter: study.values},
             amplitude=study.system.periodic.amplitude,

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from rocking.orbits import OrbitDiagram
 
 OWN = options("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
-# Total number of cycles, below which the run takes about a second and shows no bar.
-LONG = 2_000_000
 
 
 class Study(NamedTuple):
@@ -57,17 +55,12 @@ def study(given: Mapping[str, Any]) -> Study:
 def compute(
     study: Study, sweep: str, transient: int, cycles: int, section_phase: float | None
 ) -> OrbitDiagram:
-    """Compute the diagram, with a progress bar on stderr if it takes long."""
-    from rich.console import Console
-    from rich.progress import Progress
-
+    """Compute the diagram, with progress on stderr."""
+    from rocking.model import Bar
     from rocking.orbits import orbit_diagram
 
     total = len(study.values) * (2 if sweep == "both" else 1)
-    console = Console(stderr=True)
-    short = not console.is_terminal or total * (transient + cycles) < LONG
-    with your_input(ARGUMENTS | OWN), Progress(console=console, transient=True, disable=short) as bar:
-        task = bar.add_task(option(study.parameter), total=total)
+    with your_input(ARGUMENTS | OWN), Bar(total, "orbit diagram") as bar:
         return orbit_diagram(
             study.system,
             study.parameter,
@@ -77,5 +70,5 @@ def compute(
             transient,
             cycles,
             section_phase,
-            progress=lambda done: bar.advance(task, done),
+            progress=bar.advance,
         )

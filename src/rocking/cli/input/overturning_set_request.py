@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.input import level_request
-from rocking.cli.option_names import your_input
+from rocking.cli.option_names import computing
 
 if TYPE_CHECKING:
     from rocking.model import OverturningSet
@@ -24,5 +24,5 @@ def compute(asked: level_request.Question) -> OverturningSet:
     """Compute the overturning set; YourInput if an argument is invalid."""
     from rocking.survey import overturning_set
 
-    with your_input(asked.typed):
+    with computing(asked.typed):
         return overturning_set(**asked.arguments)

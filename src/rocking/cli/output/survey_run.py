@@ -37,14 +37,14 @@ def carried_out(
     block: Block | None = None,
     typed: Mapping[str, str] | None = None,
 ) -> Any:
-    """Run a survey, with a progress bar on a terminal; an interruption prints how to resume it.
+    """Run a survey, with progress on stderr; an interruption prints how to resume it.
 
     Messages name quantities derived from a block in SI in words, because the user gave no such option. `typed` holds further
     names of arguments.
     """
     with your_input({**ARGUMENTS, **_made_of(block), **(typed or {})}):
         try:
-            return survey(**arguments, progress=sys.stderr.isatty())
+            return survey(**arguments, progress=True)
         except KeyboardInterrupt as error:
             for note in getattr(error, "__notes__", ()):
                 print(f"rocking: {as_typed(note, ARGUMENTS)}", file=sys.stderr)

@@ -4,7 +4,7 @@ The papers: Housner (1963), Shi et al. (1996), Makris & Roussos (2000), Zhang & 
 One file for each figure; `reproduce` writes them all.
 """
 
-from rocking.papers.pulses_and_earthquakes.reproduce import reproduce
+from rocking.papers.pulses_and_earthquakes.reproduce import PAPER, reproduce
 from rocking.papers.report.page import PAGE
 
-__all__ = ["PAGE", "reproduce"]
+__all__ = ["PAGE", "PAPER", "reproduce"]

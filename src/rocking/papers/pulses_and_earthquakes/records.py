@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 import xarray as xr
 from attrs import frozen
@@ -11,6 +9,7 @@ from attrs import frozen
 import rocking as rk
 from rocking.papers.pulses_and_earthquakes import runge_kutta
 from rocking.papers.pulses_and_earthquakes.thresholds import GRAVITY
+from rocking.papers.report.workers import shared
 
 SIZE, SLENDERNESS = 1.0, 0.25
 """R in m and θcr in rad of the block whose scales are followed."""
@@ -27,7 +26,7 @@ COARSE_SIZE, COARSE_SLENDERNESS = 1.0, 0.15
 COARSE_RATIOS = np.linspace(1.05, 4.0, 150)
 
 
-@cache
+@shared
 def synthetic() -> tuple[rk.GroundMotion, ...]:
     """Return four synthetic motions."""
     return rk.synthetic_ground_motions(4, seed=1, step=0.02)
@@ -44,7 +43,7 @@ def switches(over: np.ndarray) -> int:
     return int(np.count_nonzero(np.diff(over)))
 
 
-@cache
+@shared
 def scales() -> xr.Dataset:
     """Return the ends of the block under the recorded motion at all scales."""
     record = rk.example_ground_motion()
@@ -52,7 +51,7 @@ def scales() -> xr.Dataset:
     return rk.rocking_spectrum(record, size=SIZE, slenderness=SLENDERNESS, scale=factor)
 
 
-@cache
+@shared
 def synthetic_scales() -> xr.Dataset:
     """Return the ends of the block under the synthetic motions at every fifth scale."""
     motions = synthetic()
@@ -60,7 +59,7 @@ def synthetic_scales() -> xr.Dataset:
     return rk.rocking_spectrum(motions, size=SIZE, slenderness=SLENDERNESS, scale=factor)
 
 
-@cache
+@shared
 def spectrum() -> xr.Dataset:
     """Return the rocking spectrum of the recorded motion."""
     alpha = 2 * np.pi / PERIODS
@@ -81,7 +80,7 @@ class Wrong:
     interpolated: tuple[rk.Share, ...]
 
 
-@cache
+@shared
 def wrong_verdicts() -> Wrong:
     """Compare the Runge–Kutta method with the exact motions, where the exact verdict is certified."""
     motions = synthetic()

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from rocking.papers.report import reproduction
 from rocking.papers.report.claim import Chapter
+from rocking.papers.report.reproduction import Part
 
 ROOM = "rocking.papers.pulses_and_earthquakes"
 TITLE = "The rocking block under pulses and earthquakes, recomputed"
@@ -23,7 +24,7 @@ a/(gθcr) is the normalised acceleration, Ω the frequency of a pulse over the f
 def reproduce(
     folder: str | Path,
     figures: Iterable[str | int] | None = None,
-    progress: Callable[[int, int, str], object] | None = None,
+    progress: bool = False,
     summary: Callable[[str], object] | None = None,
 ) -> list[Path]:
     """Write figures of the report as PNG (200 dpi) and SVG, and the table of rows as CSV and Markdown, with reproducible bytes.
@@ -35,8 +36,8 @@ def reproduce(
     figures : iterable of str or int, optional
         Figures 1 to 5, and the table "claims". Default: all of them, and the report index.html, also as PDF if the
         libraries of WeasyPrint are available.
-    progress : callable, optional
-        Called as ``progress(done, total, name)`` before each figure and claim, and once at the end.
+    progress : bool
+        Whether to show on stderr the part of the cost that is done, and the steps that run. Default: False.
     summary : callable, optional
         Called as ``summary(line)`` after the claims, with the number of claims by verdict.
 
@@ -72,9 +73,16 @@ PAPER = reproduction.Paper(
     title=TITLE,
     lead=LEAD,
     source="the papers",
-    figures={str(number): f"{ROOM}.figure{number:02}" for number in range(1, 6)},
-    tables={reproduction.CLAIMS: f"{ROOM}.claims"},
+    figures={
+        "1": Part(f"{ROOM}.figure01", 3.0),
+        "2": Part(f"{ROOM}.figure02", 0.6),
+        "3": Part(f"{ROOM}.figure03", 0.4),
+        "4": Part(f"{ROOM}.figure04", 0.7),
+        "5": Part(f"{ROOM}.figure05", 4.7),
+    },
+    tables={},
     beyond={},
     pixels=("1", "4"),
+    page_cost=1.6,
     chapters=lambda: _chapters(),  # noqa: PLW0108 (looked up at each call)
 )

@@ -102,6 +102,8 @@ class Claim:
         Verdict if the claim does not hold as printed and `because` is shown.
     because : str
         Explanation, or the correct statement.
+    cost : float
+        Approximate processor time, s.
     """
 
     place: str
@@ -109,6 +111,7 @@ class Claim:
     compute: Callable[[], Finding]
     otherwise: Standing
     because: str
+    cost: float
 
     @property
     def name(self) -> str:
@@ -122,7 +125,10 @@ class Claim:
 
     def judged(self) -> Judged:
         """Run the computation and return the claim with its verdict."""
-        finding = self.compute()
+        return self.judge(self.compute())
+
+    def judge(self, finding: Finding) -> Judged:
+        """Return the claim with the verdict that follows from a finding."""
         finding = evolve(finding, figures=typeset(finding.figures))
         if finding.holds:
             return Judged(self, Standing.CONFIRMED, finding)
@@ -151,13 +157,19 @@ class Chapter(list[Claim]):
         self.title = title
 
     def claim(
-        self, place: str, qualified: str = "", misprint: str = "", error: str = "", not_judged: str = ""
+        self,
+        place: str,
+        qualified: str = "",
+        misprint: str = "",
+        error: str = "",
+        not_judged: str = "",
+        cost: float = 0.05,
     ) -> Callable[[Callable[[], Finding]], Callable[[], Finding]]:
         """Register the decorated function as the test of the claim in its docstring.
 
         `qualified`, `misprint` or `error` is the explanation for a claim that does not hold as printed; its name selects
         the verdict. The explanation counts only if the finding shows it. `not_judged` is the reason why a claim cannot be
-        tested with this package; its finding shows that reason.
+        tested with this package; its finding shows that reason. `cost` is the approximate processor time, s.
         """
         explained = {
             Standing.QUALIFIED: qualified,
@@ -171,7 +183,7 @@ class Chapter(list[Claim]):
 
         def add(compute: Callable[[], Finding]) -> Callable[[], Finding]:
             says = " ".join((inspect.getdoc(compute) or "").split()).removesuffix(".")
-            self.append(Claim(place, says, compute, otherwise, because))
+            self.append(Claim(place, says, compute, otherwise, because, cost))
             return compute
 
         return add

@@ -6,7 +6,7 @@ import base64
 import inspect
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from attrs import frozen
 from PIL import Image
 
 from rocking.model import VERSION, replacing
-from rocking.papers.report.claim import Chapter, Judged, Standing
+from rocking.papers.report.claim import Chapter, Finding, Judged, Standing
 from rocking.papers.report.table_files import write_table
 
 PAGE, TWIN = "index.html", "index.pdf"
@@ -57,16 +57,12 @@ def pictured(name: str, module: str, file: Path) -> Picture:
     return Picture(name, title.replace("\n", " "), text, file)
 
 
-def judged(chapters: Iterable[Chapter], said: Callable[[str], object]) -> list[Judgement]:
-    """Compute the verdicts on all claims; call `said` with the place of each claim before its computation."""
-    judgements = []
-    for chapter in chapters:
-        claims = []
-        for claim in chapter:
-            said(claim.place)
-            claims.append(claim.judged())
-        judgements.append(Judgement(chapter.title, claims))
-    return judgements
+def judged(chapters: Iterable[Chapter], findings: Iterable[Finding]) -> list[Judgement]:
+    """Return the verdicts on all claims, from the findings in the order of the claims."""
+    following = iter(findings)
+    return [
+        Judgement(chapter.title, [claim.judge(next(following)) for claim in chapter]) for chapter in chapters
+    ]
 
 
 def counted(judgements: Iterable[Judgement]) -> Mapping[Standing, int]:

@@ -10,12 +10,29 @@ import matplotlib.style
 from attrs import frozen
 
 import rocking as rk
-from rocking.model import check_folder, require_extra
+from rocking.model import Bar, check_folder, instance, require_extra
 from rocking.papers.report import page
 from rocking.papers.report.claim import Chapter
+from rocking.papers.report.workers import Step, carry_out
 
 CLAIMS = "claims"
 """Name of the table of claims, which is written with the verdicts."""
+
+
+@frozen
+class Part:
+    """Figure or table of a report.
+
+    Attributes
+    ----------
+    module : str
+        Module with `draw` or `write`.
+    cost : float
+        Approximate processor time, s, for progress and for the order of the steps. Default: 0.5.
+    """
+
+    module: str
+    cost: float = 0.5
 
 
 @frozen
@@ -29,27 +46,56 @@ class Paper:
     source : str
         Source of the claims, such as "the paper".
     figures, tables, beyond : dict
-        Modules of the figures, of the tables and of the additional figures, by name. A figure module has `draw`, a table module
-        `write`; the table "claims" needs none.
+        Figures, tables except "claims", and additional figures, by name.
     pixels : sequence of str
         Figures with many points, which the page shows as PNG.
     chapters : callable
         Function that returns the claims.
+    page_cost : float
+        Approximate processor time of the page, s.
     """
 
     title: str
     lead: str
     source: str
-    figures: Mapping[str, str]
-    tables: Mapping[str, str]
-    beyond: Mapping[str, str]
+    figures: Mapping[str, Part]
+    tables: Mapping[str, Part]
+    beyond: Mapping[str, Part]
     pixels: Sequence[str]
     chapters: Callable[[], Sequence[Chapter]]
+    page_cost: float
+
+    @property
+    def parts(self) -> dict[str, Part]:
+        """Figures, tables except "claims", and additional figures, by name."""
+        return {**self.figures, **self.tables, **self.beyond}
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of figures, tables and additional figures, in the order of the report."""
-        return (*self.figures, *self.tables, *self.beyond)
+        return (*self.figures, *self.tables, CLAIMS, *self.beyond)
+
+    def known(self, names: Iterable[str | int]) -> list[str]:
+        """Return names as text; ValueError if the report lacks one."""
+        found = [str(name) for name in names]
+        for name in found:
+            if name not in self.names:
+                raise ValueError(f"figures must be among {', '.join(self.names)}; got {name!r}")
+        return found
+
+    def steps(self, name: str, folder: Path) -> list[Step]:
+        """Return the steps that write a figure or a table, or that test the claims."""
+        if name == CLAIMS:
+            return [
+                Step(claim.place, claim.cost, claim.compute)
+                for chapter in self.chapters()
+                for claim in chapter
+            ]
+        part = self.parts[name]
+        if name in self.tables:
+            return [Step(name, part.cost, _tabulate, (part.module, folder))]
+        label = f"figure {name}" if name in self.figures else name
+        return [Step(label, part.cost, _draw, (part.module, folder / self.stem(name)))]
 
     def stem(self, name: str) -> str:
         """Return the name of the files of a figure, without suffix."""
@@ -58,14 +104,14 @@ class Paper:
     def picture(self, name: str, folder: Path) -> page.Picture:
         """Return a figure as the page shows it."""
         file = folder / f"{self.stem(name)}{'.png' if name in self.pixels else '.svg'}"
-        return page.pictured(self.stem(name), (dict(self.figures) | dict(self.beyond))[name], file)
+        return page.pictured(self.stem(name), self.parts[name].module, file)
 
 
 def write(
     paper: Paper,
     folder: str | Path,
     figures: Iterable[str | int] | None = None,
-    progress: Callable[[int, int, str], object] | None = None,
+    progress: bool = False,
     summary: Callable[[str], object] | None = None,
 ) -> list[Path]:
     """Write figures and tables of a paper, by default all of them and the report; return the paths.
@@ -74,65 +120,43 @@ def write(
     """
     if figures is None:
         require_extra("report")
-    wanted = _known(paper, paper.names if figures is None else figures)
+    wanted = paper.known(paper.names if figures is None else figures)
     folder = check_folder("folder", folder)
     folder.mkdir(parents=True, exist_ok=True)
-    steps = Steps(paper, wanted, whole=figures is None, said=progress)
-    written: list[Path] = []
-    judgements: list[page.Judgement] = []
-    for name in wanted:
-        if name == CLAIMS:
-            judgements = page.judged(paper.chapters(), steps.next)
-            written += page.write_claims(folder, judgements)
-            if summary is not None:
-                summary(page.summed_up(judgements, paper.source))
-            continue
-        steps.next(f"figure {name}" if name in paper.figures else name)
-        if name in paper.tables:
-            written += import_module(paper.tables[name]).write(folder)
-        else:
-            written += _draw(paper, name, folder)
-    if figures is None:
-        steps.next("page")
-        shown = [[paper.picture(name, folder) for name in names] for names in (paper.figures, paper.beyond)]
-        written += page.write(folder, paper.title, paper.lead, shown[0], judgements, shown[1])
-    steps.end()
+    steps = {name: paper.steps(name, folder) for name in wanted}
+    every = [step for name in wanted for step in steps[name]]
+    cost = sum(step.cost for step in every) + (paper.page_cost if figures is None else 0.0)
+    title = f"{paper.title}: {len(every)} figures, tables and claims"
+    with Bar(cost, title=title, in_seconds=True, shown=instance("progress", progress, bool)) as bar:
+        results = dict(zip(every, carry_out(every, bar), strict=True))
+        written: list[Path] = []
+        judgements: list[page.Judgement] = []
+        for name in wanted:
+            found = [results[step] for step in steps[name]]
+            if name == CLAIMS:
+                judgements = page.judged(paper.chapters(), found)
+                written += page.write_claims(folder, judgements)
+            else:
+                written += found[0]
+        if figures is None:
+            shown = [
+                [paper.picture(name, folder) for name in names] for names in (paper.figures, paper.beyond)
+            ]
+            last = (folder, paper.title, paper.lead, shown[0], judgements, shown[1])
+            (pages,) = carry_out([Step("page", paper.page_cost, page.write, last)], bar)
+            written += pages
+    if judgements and summary is not None:
+        summary(page.summed_up(judgements, paper.source))
     return written
 
 
-class Steps:
-    """Progress report."""
-
-    def __init__(
-        self, paper: Paper, wanted: list[str], whole: bool, said: Callable[[int, int, str], object] | None
-    ) -> None:
-        claims = sum(map(len, paper.chapters())) if CLAIMS in wanted else 1
-        self.done, self.total, self.name, self.said = -1, len(wanted) - 1 + claims + whole, "", said
-        if not wanted:
-            self.total = 0
-
-    def next(self, name: str) -> None:
-        """Report the start of the next step."""
-        self.done, self.name = self.done + 1, name
-        if self.said is not None:
-            self.said(self.done, self.total, name)
-
-    def end(self) -> None:
-        """Report the end of the last step."""
-        if self.said is not None:
-            self.said(self.total, self.total, self.name)
-
-
-def _draw(paper: Paper, name: str, folder: Path) -> list[Path]:
+def _draw(module: str, stem: Path) -> list[Path]:
     # The bytes must not depend on the user's matplotlib settings.
     with matplotlib.style.context("default"):
-        figure = import_module((dict(paper.figures) | dict(paper.beyond))[name]).draw()
-        return [rk.plot.save(figure, folder / f"{paper.stem(name)}{suffix}") for suffix in (".png", ".svg")]
+        figure = import_module(module).draw()
+        return [rk.plot.save(figure, stem.with_name(stem.name + suffix)) for suffix in (".png", ".svg")]
 
 
-def _known(paper: Paper, figures: Iterable[str | int]) -> list[str]:
-    names = [str(figure) for figure in figures]
-    for name in names:
-        if name not in paper.names:
-            raise ValueError(f"figures must be among {', '.join(paper.names)}; got {name!r}")
-    return names
+def _tabulate(module: str, folder: Path) -> list[Path]:
+    written: list[Path] = import_module(module).write(folder)
+    return written

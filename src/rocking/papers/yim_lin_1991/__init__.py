@@ -4,6 +4,6 @@ One file a figure; `reproduce` writes them all.
 """
 
 from rocking.papers.report.page import PAGE
-from rocking.papers.yim_lin_1991.reproduce import reproduce
+from rocking.papers.yim_lin_1991.reproduce import PAPER, reproduce
 
-__all__ = ["PAGE", "reproduce"]
+__all__ = ["PAGE", "PAPER", "reproduce"]

@@ -5,13 +5,13 @@ Period 0.2 to 3, amplitude 0 to 16, from rest with φ = 0.
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 import rocking as rk
+from rocking.papers.report.workers import shared
 from rocking.papers.yim_lin_1991.cases import QUASI_PERIODIC
 
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
@@ -27,19 +27,19 @@ def axes(count: int) -> dict[str, Any]:
     return {"period": np.linspace(*PERIODS, count), "amplitude": np.linspace(*AMPLITUDES, count)}
 
 
-@cache
+@shared
 def undamped() -> xr.Dataset:
     """Compute the map of figure 10, e = 1."""
     return rk.parametric_map(**axes(160), restitution=1.0)
 
 
-@cache
+@shared
 def damped() -> xr.Dataset:
     """Compute the map of figure 11, e = 0.925."""
     return rk.parametric_map(**axes(400), restitution=0.925)
 
 
-@cache
+@shared
 def braced() -> xr.Dataset:
     """Compute the map of figure 13b, e = 0.925 between perfectly elastic braces at the critical angle.
 
@@ -49,13 +49,13 @@ def braced() -> xr.Dataset:
     return rk.parametric_map(**axes(50), restitution=0.925, brace_angle=1.0, max_cycles=100_000)
 
 
-@cache
+@shared
 def chaos() -> rk.ChaosShare:
     """Estimate the fraction of chaotic responses at random periods and amplitudes, over e."""
     return rk.chaos_share(restitution=np.array(RESTITUTIONS), samples=SAMPLES)
 
 
-@cache
+@shared
 def braced_chaos() -> rk.ChaosShare:
     """Estimate the fraction of chaotic responses between perfectly elastic braces at the critical angle, over e."""
     return rk.chaos_share(
@@ -63,7 +63,7 @@ def braced_chaos() -> rk.ChaosShare:
     )
 
 
-@cache
+@shared
 def starts(amplitude: float, period: float, restitution: float) -> xr.Dataset:
     """Compute a map over initial states with |Θ| ≤ 1 and |Θ'| ≤ 1."""
     axis = np.linspace(-1.0, 1.0, 30)
@@ -72,13 +72,13 @@ def starts(amplitude: float, period: float, restitution: float) -> xr.Dataset:
     )
 
 
-@cache
+@shared
 def repeatable(restitution: float) -> rk.RepeatabilityMap:
     """Compute a map of repeatability for inputs that vary by 1 %."""
     return rk.repeatability_map(**axes(REPEATED), restitution=restitution, samples=8, max_cycles=10_000)
 
 
-@cache
+@shared
 def responses_uncertain(brace_angle: float | None = None) -> rk.Share:
     """Estimate the fraction of random systems with e = 0.925 whose response differs for inputs that vary by 1 %.
 
@@ -96,13 +96,13 @@ def responses_uncertain(brace_angle: float | None = None) -> rk.Share:
     return rk.Share(differ, SYSTEMS)
 
 
-@cache
+@shared
 def torus_spectrum() -> rk.SpectralDensity:
     """Compute the power spectral density of figure 8b."""
     return rk.spectral_density(rk.simulate(QUASI_PERIODIC.system, cycles=8_192))
 
 
-@cache
+@shared
 def torus_turns() -> rk.RotationNumber:
     """Compute the rotation number of the quasi-periodic response."""
     return rk.rotation_number(QUASI_PERIODIC.system, cycles=20_000)

@@ -8,26 +8,35 @@ from pathlib import Path
 
 from rocking.papers.report import reproduction
 from rocking.papers.report.claim import Chapter
-from rocking.papers.yim_lin_1991 import beyond
+from rocking.papers.report.reproduction import Part
 
-FIGURES = {
-    "1": "01",
-    "2": "02",
-    "3": "03",
-    "4": "04",
-    "5": "05",
-    "6": "06",
-    "7": "07",
-    "8": "08",
-    "9": "09",
-    "10": "10",
-    "11": "11",
-    "12": "12",
-    "13a": "13",
-    "13b": "13b",
-}
-TABLES = ("exponents", "claims")
 ROOM = "rocking.papers.yim_lin_1991"
+FIGURES = {
+    "1": Part(f"{ROOM}.figure01", 0.3),
+    "2": Part(f"{ROOM}.figure02", 0.5),
+    "3": Part(f"{ROOM}.figure03", 0.6),
+    "4": Part(f"{ROOM}.figure04", 0.4),
+    "5": Part(f"{ROOM}.figure05", 0.6),
+    "6": Part(f"{ROOM}.figure06", 0.4),
+    "7": Part(f"{ROOM}.figure07", 0.8),
+    "8": Part(f"{ROOM}.figure08", 3.2),
+    "9": Part(f"{ROOM}.figure09", 0.3),
+    "10": Part(f"{ROOM}.figure10", 1.8),
+    "11": Part(f"{ROOM}.figure11", 1.3),
+    "12": Part(f"{ROOM}.figure12", 0.3),
+    "13a": Part(f"{ROOM}.figure13", 0.4),
+    "13b": Part(f"{ROOM}.figure13b", 4.3),
+}
+TABLES = {"exponents": Part(f"{ROOM}.table_exponents", 6.5)}
+BEYOND = {
+    "chaos": Part(f"{ROOM}.beyond.chaos", 1.5),
+    "cascade": Part(f"{ROOM}.beyond.cascade", 0.8),
+    "crisis": Part(f"{ROOM}.beyond.crisis", 0.4),
+    "threshold": Part(f"{ROOM}.beyond.threshold", 0.4),
+    "coexistence": Part(f"{ROOM}.beyond.coexistence", 1.4),
+    "zoom": Part(f"{ROOM}.beyond.zoom", 1.3),
+    "bifurcations": Part(f"{ROOM}.beyond.bifurcations", 23.0),
+}
 # Figures with many points, which the page shows as PNG.
 PIXELS = ("6", "7", "10", "11", "13a", "13b", "cascade", "crisis", "coexistence", "zoom", "bifurcations")
 
@@ -43,7 +52,7 @@ computation does not support an explanation, the verdict is “not confirmed”.
 def reproduce(
     folder: str | Path,
     figures: Iterable[str | int] | None = None,
-    progress: Callable[[int, int, str], object] | None = None,
+    progress: bool = False,
     summary: Callable[[str], object] | None = None,
 ) -> list[Path]:
     """Write figures of Yim & Lin (1991) as PNG (200 dpi) and SVG, and tables as CSV and Markdown, with reproducible bytes.
@@ -56,8 +65,8 @@ def reproduce(
         Figures of the paper, 1 to 12, "13a" and "13b". Tables: "exponents" and "claims". Additional figures: "chaos", "cascade",
         "crisis", "threshold", "coexistence", "zoom" and "bifurcations". Default: all of them, and the report index.html, also as PDF if
         the libraries of WeasyPrint are available.
-    progress : callable, optional
-        Called as ``progress(done, total, name)`` before each figure, table and claim, and once at the end.
+    progress : bool
+        Whether to show on stderr the part of the cost that is done, and the steps that run. Default: False.
     summary : callable, optional
         Called as ``summary(line)`` after the claims, with the number of claims by verdict.
 
@@ -93,9 +102,10 @@ PAPER = reproduction.Paper(
     title=TITLE,
     lead=LEAD,
     source="the paper",
-    figures={name: f"{ROOM}.figure{stem}" for name, stem in FIGURES.items()},
-    tables={name: f"{ROOM}.table_{name}" for name in TABLES},
-    beyond={name: f"{ROOM}.beyond.{name}" for name in beyond.NAMES},
+    figures=FIGURES,
+    tables=TABLES,
+    beyond=BEYOND,
     pixels=PIXELS,
+    page_cost=5.2,
     chapters=lambda: _chapters(),  # noqa: PLW0108 (looked up at each call)
 )

@@ -10,7 +10,6 @@ flow, which every motion has. Dimensions refer to the section; the dimension in 
 motions have no attractor: the chaotic sea fills an area, and its exponent decreases with the length of the run.
 """
 
-from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +18,7 @@ from attrs import asdict, fields, frozen
 import rocking as rk
 from rocking.model import plus_minus
 from rocking.papers.report.table_files import write_table
+from rocking.papers.report.workers import shared
 from rocking.papers.yim_lin_1991.cases import BRACED, CHAOTIC, PERIODIC, QUASI_PERIODIC
 
 # Number and length of runs as in 1991, and their range of phases, which no experiment can resolve.
@@ -101,7 +101,7 @@ def sea_systems(count: int) -> list[rk.System]:
     ]
 
 
-@cache
+@shared
 def sea() -> tuple[float, float]:
     """Return mean and standard deviation of λ₁ of the chaotic sea over runs of the length of 1991, nats per cycle."""
     per_cycle = (
@@ -110,7 +110,7 @@ def sea() -> tuple[float, float]:
     return float(per_cycle.mean()), float(per_cycle.std(ddof=1))
 
 
-@cache
+@shared
 def sea_dimension() -> Dimension:
     """Estimate the dimension of points of several runs.
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 import time
+from concurrent.futures import CancelledError
+from contextlib import suppress
+from threading import Timer
 
 import numpy as np
 from attrs import frozen
@@ -13,9 +16,10 @@ from rocking.survey.measurement import Batch, Measurement, compute
 from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Level
 
-PILOTS, AT_ONCE = 512, 16
+PILOTS = 512
+"""Points of the sample. They are computed together, as in the survey: alone, a point takes many times as long."""
 MAX_SECONDS = 0.5
-"""Approximate time limit of the estimate itself, s."""
+"""Time limit of the estimate itself, s."""
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
 
@@ -32,21 +36,24 @@ class Cost:
     seconds : float
         Estimated time of one core for the remaining points, from a sample of up to 512 points. The estimate is rough if
         a few points are very expensive.
+    at_least : bool
+        Whether the sample was stopped at its time limit. Then `seconds` is a lower bound.
     """
 
     points: int
     tiles: int
     done: int
     seconds: float
+    at_least: bool = False
 
     def describe(self, workers: int | None) -> str:
         """Return the cost in one line, for a number of workers; None if their number is unknown."""
         what = f"{self.points:,} points in {self.tiles:,} tiles"
         if self.done:
             what += f", {self.done:,} of them computed before"
-        if workers is None:
-            return f"{what}, about {duration(self.seconds)} on one core"
-        return f"{what}, about {duration(self.seconds / workers)} on {counted(workers, 'core')}"
+        about = "more than" if self.at_least else "about"
+        on = "one core" if workers is None else counted(workers, "core")
+        return f"{what}, {about} {duration(self.seconds / (workers or 1))} on {on}"
 
 
 def cost(asked: SurveySpec, measure: Measurement, levels: list[Level], there: int) -> Cost:
@@ -55,13 +62,16 @@ def cost(asked: SurveySpec, measure: Measurement, levels: list[Level], there: in
     # multiples of the golden section, rounded to integers, spread the sample evenly over the points
     stride = round(GOLDEN * asked.points)
     places = (np.arange(min(PILOTS, asked.points), dtype=object) * stride % asked.points).astype(np.int64)
-    begun, done = time.perf_counter(), 0
-    while done < places.size and time.perf_counter() - begun < MAX_SECONDS:
-        wanted = places[done : done + AT_ONCE]
-        compute(Batch(asked, wanted, measure.judge, measure.options), np.zeros(1, np.int64))
-        done += wanted.size
-    each = (time.perf_counter() - begun) / done
-    return Cost(asked.points, tiles, there, each * (asked.points - there))
+    stop = np.zeros(1, np.int64)
+    compute(Batch(asked, places[:1], measure.judge, measure.options), stop)  # opens the compiled kernels
+    limit = Timer(MAX_SECONDS, stop.fill, (1,))
+    limit.start()
+    begun = time.perf_counter()
+    with suppress(CancelledError):
+        compute(Batch(asked, places, measure.judge, measure.options), stop)
+    limit.cancel()
+    each = (time.perf_counter() - begun) / places.size
+    return Cost(asked.points, tiles, there, each * (asked.points - there), bool(stop[0]))
 
 
 def duration(seconds: float) -> str:

@@ -8,8 +8,9 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rocking.model import instance, require_extra, shown_path
+from rocking.model import Bar, instance, require_extra, shown_path
 from rocking.survey.engine.cost import cost
+from rocking.survey.engine.progress import Watcher
 from rocking.survey.engine.tile_loop import cores, run
 from rocking.survey.measurement import Measurement
 from rocking.survey.spec import SurveySpec
@@ -60,12 +61,10 @@ def _carry_out(results: Memory | Store, executor: Executor | None, progress: boo
         if not progress:
             run(results, executor)
             return
-        from rocking.survey.engine.progress import Bar
-
-        workers = cores() if executor is None else None
         planned = cost(results.asked, results.measure, results.levels, results.done)
-        with Bar(planned, results.measure, workers) as bar:
-            run(results, executor, bar)
+        title = planned.describe(cores() if executor is None else None)
+        with Bar(planned.points, title=title, unit="points") as bar:
+            run(results, executor, Watcher(bar, results.measure))
 
 
 @contextmanager

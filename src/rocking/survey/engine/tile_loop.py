@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import frozen
 
+from rocking.survey.engine.progress import Watcher, count_when_done
 from rocking.survey.measurement import Arrays, batches, compute
 from rocking.survey.store.locking import defer_interrupt
 from rocking.survey.tiling import Tile
 
 if TYPE_CHECKING:
-    from rocking.survey.engine.progress import Bar
     from rocking.survey.store.memory import Memory
     from rocking.survey.store.store import Store
 
@@ -35,7 +35,7 @@ class Pending:
     futures: list[Future]
 
 
-def run(results: Memory | Store, executor: Executor | None = None, watcher: Bar | None = None) -> None:
+def run(results: Memory | Store, executor: Executor | None = None, watcher: Watcher | None = None) -> None:
     """Compute all missing points; after any interruption, including Ctrl-C, the results kept so far are valid."""
     with engine(executor) as (pool, stop):
         pending: deque[Pending] = deque()
@@ -49,6 +49,9 @@ def run(results: Memory | Store, executor: Executor | None = None, watcher: Bar 
                 if known.all():
                     continue
                 pending.append(_submit(pool, stop, results, tile, known))
+                if watcher is not None:
+                    for future, wanted in zip(pending[-1].futures, pending[-1].wanted, strict=True):
+                        count_when_done(watcher.bar, future, wanted.size)
                 under_way += len(pending[-1].futures)
                 while under_way > MAX_UNDER_WAY:
                     under_way -= _settle(pending, results, watcher)
@@ -70,7 +73,7 @@ def _submit(
     )
 
 
-def _settle(pending: deque[Pending], results: Memory | Store, watcher: Bar | None) -> int:
+def _settle(pending: deque[Pending], results: Memory | Store, watcher: Watcher | None) -> int:
     """Keep the results of the first submitted tile when they are complete; return its number of batches.
 
     Tiles are kept in the order of submission.
@@ -94,7 +97,7 @@ def _settle(pending: deque[Pending], results: Memory | Store, watcher: Bar | Non
 
 
 def _tell(
-    watcher: Bar | None,
+    watcher: Watcher | None,
     results: Memory | Store,
     tile: Tile,
     answers: Arrays,

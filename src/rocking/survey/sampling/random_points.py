@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Executor
-from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
-from rocking.model import RANGES, instance, reals, refusal, shown, whole
+from rocking.model import RANGES, Bar, instance, reals, refusal, shown, whole
+from rocking.survey.engine.progress import count_when_done
 from rocking.survey.engine.tile_loop import engine
 from rocking.survey.harmonic_spec import Points
 from rocking.survey.measurement import Arrays, Measurement
@@ -21,42 +20,26 @@ MAX_SEED = 2**32 - 1
 
 
 def sampled(
-    points: Points, measure: Measurement, executor: Executor | None = None, shown_as: str | None = None
+    points: Points, measure: Measurement, executor: Executor | None = None, shown_as: str = ""
 ) -> Arrays:
     """Return the results of a measurement at points, in their order; with a progress bar if they are ``shown_as`` something."""
     if executor is not None:
         instance("executor", executor, Executor)
     total = len(points.systems)
-    with engine(executor) as (pool, stop), counted(shown_as, total) as add:
+    with engine(executor) as (pool, stop), Bar(total, shown_as, shown=bool(shown_as)) as bar:
         futures = []
         try:
             for first in range(0, total, AT_ONCE):
                 part = Points(*(array[first : first + AT_ONCE] for array in points))
                 futures.append(pool.submit(measure.judge, part, measure.options, stop))
-            answers = []
-            for future in futures:
-                result = future.result()
-                if result is not None:
-                    answers.append(result)
-                    add(len(next(iter(result.values()))))
+                count_when_done(bar, futures[-1], len(part.systems))
+            answers = [result for future in futures if (result := future.result()) is not None]
         finally:
             for future in futures:
                 future.cancel()
     if len(answers) < len(futures):
         raise CancelledError("the survey was stopped")
     return {name: np.concatenate([each[name] for each in answers]) for name in answers[0]}
-
-
-@contextmanager
-def counted(shown_as: str | None, total: int) -> Iterator[Callable[[int], None]]:
-    """Return the function that adds completed points to a progress bar, if there is one."""
-    if shown_as is None:
-        yield lambda _: None
-        return
-    from rocking.survey.engine.progress import counting
-
-    with counting(shown_as, total) as add:
-        yield add
 
 
 def generator(seed: int) -> np.random.Generator:

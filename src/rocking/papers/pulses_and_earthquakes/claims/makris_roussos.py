@@ -59,6 +59,7 @@ def _line(kind: str, divisor: float) -> Finding:
 @CHAPTER.claim(
     "Eq. (28)",
     qualified="a straight line of the right size. It lies above the exact threshold, so that it is unconservative",
+    cost=0.2,
 )
 def line_half_sine() -> Finding:
     """Half sine: A ≈ 1 + Ω/2 for Ω < 3."""
@@ -68,6 +69,7 @@ def line_half_sine() -> Finding:
 @CHAPTER.claim(
     "Eqs. (41)–(45)",
     qualified="close for slow pulses. Near Ω = 2 the line lies above the exact threshold, so that it is unconservative there",
+    cost=0.1,
 )
 def line_one_sine() -> Finding:
     """One sine: A ≈ 1 + Ω/6 for Ω < 3."""
@@ -77,6 +79,7 @@ def line_one_sine() -> Finding:
 @CHAPTER.claim(
     "Eqs. (41)–(45)",
     qualified="near Ω = 1.5 the line lies above the exact threshold, so that it is unconservative there",
+    cost=0.1,
 )
 def line_one_cosine() -> Finding:
     """One cosine: A ≈ 1 + Ω/4 for Ω < 3."""

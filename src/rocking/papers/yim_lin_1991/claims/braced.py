@@ -57,7 +57,9 @@ def figure_13a() -> Finding:
 
 
 @CHAPTER.claim(
-    "Fig. 13b", error="most such responses are periodic in the end; many appear chaotic for a thousand cycles"
+    "Fig. 13b",
+    error="most such responses are periodic in the end; many appear chaotic for a thousand cycles",
+    cost=0.3,
 )
 def frequent_hits() -> Finding:
     """Chaos dominates if brace impacts are frequent."""
@@ -115,7 +117,7 @@ def dominant() -> Finding:
     )
 
 
-@CHAPTER.claim("Conclusion 3")
+@CHAPTER.claim("Conclusion 3", cost=8.0)
 def enlarged() -> Finding:
     """Braces enlarge the region of chaos."""
     maps = [
@@ -131,7 +133,7 @@ def enlarged() -> Finding:
     )
 
 
-@CHAPTER.claim("Conclusion 3")
+@CHAPTER.claim("Conclusion 3", cost=12.0)
 def more_sensitive() -> Finding:
     """Braces make responses more sensitive."""
     without, with_ = cached_surveys.responses_uncertain(), cached_surveys.responses_uncertain(1.0)

@@ -22,7 +22,7 @@ def two_new_kinds() -> Finding:
     )
 
 
-@CHAPTER.claim("Conclusion 1")
+@CHAPTER.claim("Conclusion 1", cost=0.3)
 def coexist() -> Finding:
     """For some systems chaotic and periodic responses coexist."""
     found = cached_surveys.starts(10.103037, 1.721328, 0.8)

@@ -255,7 +255,7 @@ def damped_quasi_periodic() -> Finding:
     )
 
 
-@CHAPTER.claim("Numerical results")
+@CHAPTER.claim("Numerical results", cost=1.7)
 def damped_chaos() -> Finding:
     """Other initial states and parameters give damped chaotic responses."""
     system = rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from functools import cache
 
 import numpy as np
 
 import rocking as rk
 from rocking.model import percent
 from rocking.papers.report.claim import Chapter, Finding, small
+from rocking.papers.report.workers import shared
 from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents
 from rocking.papers.yim_lin_1991.cases import CHAOTIC, PERIODIC, QUASI_PERIODIC
 
@@ -17,7 +17,7 @@ CHAPTER = Chapter("Identification of responses")
 SUBHARMONIC = PERIODIC[1].system
 
 
-@cache
+@shared
 def _dimension(system: rk.System, points: int, transient: int = 0) -> rk.CorrelationDimension:
     motion = rk.simulate(system, cycles=transient + points - 1, record="section")
     try:
@@ -26,7 +26,7 @@ def _dimension(system: rk.System, points: int, transient: int = 0) -> rk.Correla
         return short.estimate
 
 
-@cache
+@shared
 def _spectrum(system: rk.System, cycles: int) -> rk.LyapunovSpectrum:
     try:
         return rk.lyapunov(system, cycles=cycles)
@@ -45,6 +45,7 @@ def figure_7a() -> Finding:
 @CHAPTER.claim(
     "Fig. 7b",
     qualified="three closed curves, visited in turn; they are the intersections of one torus with the section",
+    cost=0.7,
 )
 def figure_7b() -> Finding:
     """The Poincaré map of the quasi-periodic response forms three tori."""
@@ -77,6 +78,7 @@ def figure_7c() -> Finding:
 @CHAPTER.claim(
     "Fig. 8a",
     qualified="the line at a third of the forcing frequency is the strongest, but the line at the forcing frequency is strong too",
+    cost=0.2,
 )
 def figure_8a() -> Finding:
     """The spectral density of the periodic response has a single dominant frequency."""
@@ -102,7 +104,7 @@ def figure_8b() -> Finding:
     )
 
 
-@CHAPTER.claim("Fig. 8c")
+@CHAPTER.claim("Fig. 8c", cost=1.3)
 def figure_8c() -> Finding:
     """The spectral density of the chaotic response is a broad band."""
     # One run in forty stays near an island so long that its lines hold half of the variance.

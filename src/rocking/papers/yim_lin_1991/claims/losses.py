@@ -137,7 +137,7 @@ def region_chaotic() -> Finding:
     )
 
 
-@CHAPTER.claim("Numerical results; conclusion 4")
+@CHAPTER.claim("Numerical results; conclusion 4", cost=5.0)
 def sensitivity() -> Finding:
     """Damping lowers the sensitivity of the response."""
     found = {e: cached_surveys.repeatable(e).uncertain for e in (1.0, 0.97, 0.925, 0.8, 0.5, 0.2)}

@@ -245,6 +245,7 @@ def lower_orbit() -> Finding:
     "After (18)",
     error="strongly damped blocks move chaotically below A_M, and even below A*, where the manifolds do not intersect. Period doubling "
     "of bounded motions needs no intersection",
+    cost=0.8,
 )
 def no_zeros() -> Finding:
     """Without zeros of Melnikov's function there is no chaotic response."""

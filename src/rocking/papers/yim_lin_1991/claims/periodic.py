@@ -53,6 +53,7 @@ def equation_8() -> Finding:
     "Existence",
     error="there are two only between the fold and A = t(1 + Ω²)/Ω, t = tanh(nπ/2Ω). Above that amplitude the second solution "
     "would have a negative speed, and only one remains",
+    cost=0.2,
 )
 def pairs() -> Finding:
     """Either there is no solution, or there are two."""
@@ -76,7 +77,7 @@ def pairs() -> Finding:
     )
 
 
-@CHAPTER.claim("Existence")
+@CHAPTER.claim("Existence", cost=0.2)
 def lower_one() -> Finding:
     """One of the two solutions can be stable; the other is always unstable."""
     two = [modes for modes in _drawn() if len(modes) == 2]

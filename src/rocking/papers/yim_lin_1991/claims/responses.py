@@ -40,7 +40,7 @@ def equation_6() -> Finding:
     )
 
 
-@CHAPTER.claim("Eq. (7)")
+@CHAPTER.claim("Eq. (7)", cost=1.0)
 def equation_7() -> Finding:
     """A quasi-periodic response combines two or more incommensurate frequencies."""
     density, turns = cached_surveys.torus_spectrum(), cached_surveys.torus_turns()
@@ -118,7 +118,7 @@ def figure_5() -> Finding:
     return Finding(found.kind is rk.Kind.QUASI_PERIODIC, f"{found.evidence}")
 
 
-@CHAPTER.claim("Fig. 6")
+@CHAPTER.claim("Fig. 6", cost=0.7)
 def figure_6() -> Finding:
     """A = 2, T = 0.4, e = 1: chaotic."""
     kinds = [rk.classify(system).kind for system in table_exponents.sea_systems(32)]
