@@ -83,8 +83,8 @@ class Estimate:
 class Bar:
     """Progress on stderr; a context manager around the work.
 
-    A terminal shows a bar, a notebook a bar that changes in place, and a log a line every few seconds. A log gets no line about
-    work that ends within `SILENT`.
+    A terminal and a notebook show a bar, which changes in place. A log gets a line every few seconds, but none about work that ends
+    within `SILENT`.
 
     Parameters
     ----------

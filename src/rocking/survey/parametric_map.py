@@ -55,9 +55,9 @@ def parametric_map(
         Executor that runs the computation. Results are bit-identical for all executors on the same type of processor.
         Default: threads on all cores.
     progress : bool
-        Whether to show the estimated cost and the progress on stderr: the part done, the time left, points per second and the
-        fraction of each response type. A terminal and a notebook show a bar. A log gets a line every few seconds, and none about
-        a survey that ends before. Default: False.
+        Whether to show the estimated cost and the progress on stderr. The progress is the part done, the time left, points per
+        second and the fraction of each response type. A terminal and a notebook show a bar. A log gets a line every few seconds,
+        and none about a survey that ends before. Default: False.
     repair : bool
         Whether to recompute damaged tiles of the store. Default: False, so that damage raises OSError.
 
