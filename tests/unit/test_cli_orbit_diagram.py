@@ -1,4 +1,4 @@
-"""`rocking orbit-diagram`: one axis among the options, output, files and error messages."""
+"""`rocking orbit-diagram`: one axis among the options, output and files."""
 
 import csv
 import json
@@ -21,19 +21,6 @@ def told(rocking, line):
     return json.loads(out, parse_constant=pytest.fail)
 
 
-def test_answer_comes_first_then_what_was_varied_and_what_not(rocking):
-    code, message, out = rocking(f"orbit-diagram {LINE}")
-    assert (code, message) == (0, "")
-    text = [" ".join(line.split()) for line in out.splitlines()]
-    assert text == [
-        str(DIAGRAM),
-        "varied --amplitude 10.4 to 11.5",
-        "fixed period 1.72133, phase 0, restitution 0.8",
-        f"largest |Θ|, up {np.nanmax(DIAGRAM.peak[0]):.6g}",
-        f"largest |Θ|, down {np.nanmax(DIAGRAM.peak[1]):.6g}",
-    ]
-
-
 def test_json_agrees_with_the_diagram(rocking):
     read = told(rocking, f"{LINE} --json")
     assert (read["parameter"], read["first"], read["last"], read["count"]) == ("amplitude", 10.4, 11.5, 12)
@@ -49,8 +36,7 @@ def test_json_agrees_with_the_diagram(rocking):
 def test_files_hold_every_point(rocking, tmp_path):
     import xarray as xr
 
-    code, _, out = rocking(f"orbit-diagram {LINE} --plot a.png --csv a.csv --netcdf a.nc")
-    assert (code, out.splitlines()[-3:]) == (0, ["wrote a.png", "wrote a.csv", "wrote a.nc"])
+    assert rocking(f"orbit-diagram {LINE} --csv a.csv --netcdf a.nc")[0] == 0
     with (tmp_path / "a.csv").open() as file:
         head, *rows = csv.reader(file)
     angle, velocity = "angle [theta_cr]", "velocity [alpha theta_cr]"
@@ -62,7 +48,6 @@ def test_files_hold_every_point(rocking, tmp_path):
     np.testing.assert_array_equal(kept, DIAGRAM.points[~DIAGRAM.overturned].reshape(-1, 2))
     with xr.open_dataset(tmp_path / "a.nc") as read:
         np.testing.assert_array_equal(read["angle"], DIAGRAM.points[..., 0])
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.nc", "a.png"]
 
 
 @pytest.mark.parametrize(
@@ -123,6 +108,7 @@ def test_all_overturned_has_no_peak(rocking):
     assert read["sweeps"][0]["peak"] is None
 
 
+<<<<<<< HEAD
 NORMALISED = "--period 1 --restitution 0.9"
 
 
@@ -193,6 +179,11 @@ def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
 
 
 def test_run_in_a_terminal_shows_a_bar_on_stderr(terminal, monkeypatch):
+=======
+def test_long_run_in_a_terminal_shows_a_bar_that_leaves_nothing_behind(rocking, monkeypatch, capsys):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setattr("rocking.cli.input.orbit_diagram_request.LONG", 0)
+>>>>>>> w-cli
     monkeypatch.setattr("sys.argv", ["rocking", "orbit-diagram", *LINE.split()])
     from rocking.cli.main import run
 
@@ -201,8 +192,8 @@ def test_run_in_a_terminal_shows_a_bar_on_stderr(terminal, monkeypatch):
 
 
 def test_interrupted_diagram_says_so_and_leaves_no_file(interrupted, tmp_path):
-    line = f"orbit-diagram --amplitude 7:10:1000 {NORMALISED} --transient 1e6 --plot a.png"
-    assert interrupted(line, 3.0) == (130, b"", b"rocking: interrupted\n")
+    line = "orbit-diagram --amplitude 7:10:1000 --period 1 --restitution 0.9 --transient 1e6 --plot a.png"
+    assert interrupted(line, 1.5) == (130, b"", b"rocking: interrupted\n")
     assert not list(tmp_path.iterdir())
 
 
@@ -237,5 +228,3 @@ def test_block_has_its_accelerations_in_json_and_its_warnings(rocking):
     assert up["overturned_at_acceleration_m_per_s2"] == pytest.approx(expected)
     assert up["peak_deg"] == pytest.approx(block.degrees(up["peak"]))
     assert read["warnings"] == []
-    squat = rocking(f"orbit-diagram {IN_SI.replace('0.5', '1.5')} --transient 5 --cycles 2")[2]
-    assert "warning: outside the slender range" in squat
