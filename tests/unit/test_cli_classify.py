@@ -132,19 +132,9 @@ def test_proof_is_in_json(rocking):
     assert told(rocking, PERIODIC)["proof"] is None
 
 
-<<<<<<< HEAD
 def test_proof_of_the_full_block_is_refused(rocking):
     code, message, out = rocking(f"classify {SI} --model full --prove")
     assert (code, out) == (2, "")
     assert (
         message == "proofs are available for the slender block only (omit --critical-angle and --model full)"
     )
-=======
-def test_proof_without_flint_says_what_to_install(rocking, monkeypatch):
-    for name in [name for name in sys.modules if name.startswith("rocking.proof.")]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "flint", None)
-    code, message, out = rocking(f"classify {PERIODIC} --prove")
-    assert (code, out) == (2, "")
-    assert message == "proofs need python-flint (run pip install '.[proof]' in a copy of the repository)"
->>>>>>> w-cli
