@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from rocking.cli.option_names import your_input
+from rocking.cli.option_names import computing
 
 EXAMPLES = """\
 # Figures 1 and 4 of Yim & Lin (1991) only.
@@ -46,10 +46,10 @@ def paper(
     from rocking.model import check_folder
 
     name, *rest = figures if figures and figures[0] in PAPERS else (next(iter(PAPERS)), *(figures or ()))
-    room = room_of(name)
     folder = Path("results") / name if output is None else output
-    with your_input({"figures": "FIGURE"}):
+    with computing({"figures": "FIGURE"}):
         check_folder("--output", folder)
+        room = room_of(name)
         room.PAPER.known(rest)
     last: list[str] = []
     for path in room.reproduce(folder, rest or None, progress=True, summary=last.append):

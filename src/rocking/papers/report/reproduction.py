@@ -139,11 +139,9 @@ def write(
             else:
                 written += found[0]
         if figures is None:
-            shown = [
-                [paper.picture(name, folder) for name in names] for names in (paper.figures, paper.beyond)
-            ]
-            last = (folder, paper.title, paper.lead, shown[0], judgements, shown[1])
-            (pages,) = carry_out([Step("page", paper.page_cost, page.write, last)], bar)
+            (pages,) = carry_out(
+                [Step("page", paper.page_cost, _write_page, (paper, folder, judgements))], bar
+            )
             written += pages
     if judgements and summary is not None:
         summary(page.summed_up(judgements, paper.source))
@@ -155,6 +153,13 @@ def _draw(module: str, stem: Path) -> list[Path]:
     with matplotlib.style.context("default"):
         figure = import_module(module).draw()
         return [rk.plot.save(figure, stem.with_name(stem.name + suffix)) for suffix in (".png", ".svg")]
+
+
+def _write_page(paper: Paper, folder: Path, judgements: list[page.Judgement]) -> list[Path]:
+    figures, beyond = (
+        [paper.picture(name, folder) for name in names] for names in (paper.figures, paper.beyond)
+    )
+    return page.write(folder, paper.title, paper.lead, figures, judgements, beyond)
 
 
 def _tabulate(module: str, folder: Path) -> list[Path]:
