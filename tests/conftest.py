@@ -56,12 +56,14 @@ def thin(request):
 
 @pytest.hookimpl(tryfirst=True)  # before items are selected and grouped by their marks
 def pytest_collection_modifyitems(config, items):
-    """Mark the tests of the whole report as long, for one worker. Select the tests of --part and of --exhaustive."""
+    """Mark the tests of the whole report as long. Let one worker run the tests of a file. Select those of --part and of --exhaustive."""
     for item in items:
         if "reproduced" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.xdist_group("reproduced"))
             item.add_marker(pytest.mark.long)
             item.add_marker(pytest.mark.timeout(1200))
+        elif not item.get_closest_marker("xdist_group"):  # what the tests of a file share is made once
+            item.add_marker(pytest.mark.xdist_group(item.path.name))
     part, parts = map(int, config.getoption("part").split("/"))
     chosen = [item for item in items if crc32(item.path.name.encode()) % parts == part]
     if config.getoption("exhaustive"):

@@ -74,6 +74,7 @@ def picture_of(visitor):
     return image, [columns[name][0] for name in ("x", "y", "w", "h")]
 
 
+@pytest.mark.long
 def test_zooming_to_the_overturning_boundary_shows_new_detail(visit):
     visitor = visit()
     visitor.open("?version=1&amplitude=4&period=1.3&restitution=0.925")
@@ -98,6 +99,7 @@ def test_zooming_to_the_overturning_boundary_shows_new_detail(visit):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_map_stops_and_says_so_where_double_precision_ends(visit):
     visitor = visit()
     low, high = 1.3, 1.3 + 1e-12
@@ -118,6 +120,7 @@ def test_map_stops_and_says_so_where_double_precision_ends(visit):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_case_of_the_paper_shows_its_figure(visit):
     case = PERIODIC[1]
     visitor = visit()
@@ -139,6 +142,7 @@ def test_case_of_the_paper_shows_its_figure(visit):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_shared_link_gives_the_same_view_and_back_the_one_before(visit):
     one, other = visit(), visit()
     one.open()
@@ -217,6 +221,7 @@ def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_two_visitors_do_not_disturb_each_other(visit):
     one, other = visit(), visit()
     one.open("?version=1&amplitude=6.5&period=0.4&restitution=0.925")
@@ -234,6 +239,7 @@ def test_two_visitors_do_not_disturb_each_other(visit):
     other.is_content()
 
 
+@pytest.mark.long
 def test_block_in_metres_stands_on_the_map_with_axes_in_si(visit):
     visitor = visit()
     visitor.open()
@@ -268,7 +274,9 @@ COVERED = """within => [...document.querySelector(within).querySelectorAll("butt
 }).map(each => each.outerHTML)"""
 CUT = """() => [...document.querySelectorAll("#fields label > *")].filter(each => each.scrollWidth > each.clientWidth)
     .map(each => each.value ?? each.textContent)"""
-SCREENS = pytest.mark.parametrize("width, height", [(1280, 800), (390, 844)])
+SCREENS = pytest.mark.parametrize(
+    "width, height", [pytest.param(1280, 800, marks=pytest.mark.long), (390, 844)]
+)
 
 
 @SCREENS
@@ -320,6 +328,7 @@ def test_fields_have_words_beside_their_symbols_and_room_for_what_they_hold(visi
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_critical_angle_selects_the_full_block(visit):
     visitor = visit()
     visitor.open("?version=1&curves=melnikov")
@@ -510,6 +519,7 @@ def test_page_asks_for_the_token_and_its_link_holds_none(browser, running, tmp_p
             assert token not in page.url
 
 
+@pytest.mark.long
 def test_section_grows_to_a_hundred_thousand_points(visit):
     visitor = visit()
     visitor.open("?version=1&amplitude=10.103037&period=1.721328&restitution=0.8")
@@ -571,7 +581,7 @@ CONTRAST = """() => {
 }"""
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", [pytest.param("light", marks=pytest.mark.long), "dark"])
 def test_text_stands_out_from_its_ground(visit, scheme):
     visitor = visit(1280, 800, scheme)
     visitor.open()

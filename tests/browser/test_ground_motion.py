@@ -61,6 +61,7 @@ def test_page_opens_without_complaint_and_asks_no_other_host(ground, width, heig
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_pages_link_to_each_other(visit):
     visitor = visit()
     visitor.open()
@@ -92,6 +93,7 @@ def test_click_on_the_map_shows_the_motion_of_that_block(ground):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_point_of_the_map_tells_the_block_under_the_pointer(ground):
     visitor = ground()
     visitor.finished()
@@ -103,6 +105,7 @@ def test_point_of_the_map_tells_the_block_under_the_pointer(ground):
     assert "overturns" in visitor.text("readout")
 
 
+@pytest.mark.long
 def test_slider_scales_the_motion_and_the_map(ground):
     visitor = ground()
     visitor.finished()
@@ -138,6 +141,7 @@ def test_pulse_is_chosen_and_drawn(ground):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_synthetic_motion_is_that_of_the_package(ground):
     visitor = ground()
     settled(visitor, lambda: visitor.page.select_option("#source", "synthetic-2"))
@@ -168,6 +172,7 @@ def test_file_is_read_shown_and_not_part_of_the_link(ground):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_file_may_be_dropped_on_the_page(ground):
     visitor = ground()
 
@@ -213,6 +218,7 @@ def test_file_that_is_no_record_or_too_large_is_refused_in_one_line(ground):
     assert visitor.page.evaluate("link.file") is None
 
 
+@pytest.mark.long
 def test_largest_file_arrives(ground):
     """Fifty megabytes of blanks around one small record fit into a message."""
     visitor = ground()
@@ -229,6 +235,7 @@ def test_largest_file_arrives(ground):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_link_gives_the_same_view_and_undo_the_one_before(ground):
     visitor = ground()
     settled(visitor, lambda: visitor.page.select_option("#source", "synthetic-3"))
@@ -241,6 +248,7 @@ def test_link_gives_the_same_view_and_undo_the_one_before(ground):
     assert "height=2&width=0.5" in visitor.page.url
 
 
+@pytest.mark.long
 def test_zoom_computes_a_part_of_the_map_again(ground):
     visitor = ground()
     settled(visitor, lambda: visitor.page.click("[data-zoom='2']"))
@@ -280,6 +288,7 @@ def test_page_answers_only_on_this_machine(running):
     caught.value.close()
 
 
+@pytest.mark.long
 def test_full_equation_of_motion_changes_the_map_and_the_verdict(ground):
     visitor = ground("?version=1&source=pulse&amplitude=0.35&duration=0.6&scale=1")
     visitor.finished()

@@ -191,6 +191,7 @@ def original(special, amplitude):
     return rk.find_orbit(near, orbit.state, orbit.period)
 
 
+@pytest.mark.long
 def test_new_orbits_lie_where_the_sign_of_the_coefficient_says(sides):
     """Brute force: a search finds them on one side, near the orbit, and none so near on the other side."""
     _, found = sides
@@ -226,6 +227,7 @@ def reached(orbit, cycles=200_000):
     return np.linalg.norm(motion.section()[-64:, None] - own, axis=2).min(axis=1).max()
 
 
+@pytest.mark.long
 def test_motions_beyond_a_supercritical_point_stay_near_and_beyond_a_subcritical_one_do_not(sides):
     """The amplitude of a motion is a square root of the distance from a supercritical point, and jumps at a subcritical one."""
     _, found = sides

@@ -15,7 +15,6 @@ from oracles.full_block import DIGITS, Block, Pulse
 from rocking.kernels.forcing.full import pulse_base
 from rocking.motion.kernel_parameters import parameters
 
-COMPILES = pytest.mark.xdist_group("full_pulse")  # its kernels are compiled once
 ROUNDING = 2.0**-53
 FORMS = {"half-sine": (0.5, -math.pi / 2), "one-sine": (1.0, -math.pi / 2), "one-cosine": (1.0, 0.0)}
 """Turns and phase of each pulse."""
@@ -89,11 +88,15 @@ RESTING = [
     Case("one-cosine", 1.2, 6.0, 0.1, 0.2, 5.0),
 ]
 # By collocation they take ten seconds each.
-SLOW = [pytest.param(case, marks=pytest.mark.long) for case in RESTING[1:]]
 
 
 def name_of(case):
     return f"{case.kind}-{case.level:g}-{case.angle:g}"
+
+
+def sampled(cases):
+    """Mark all cases but every third one as long: each takes seconds in many digits."""
+    return [pytest.param(case, marks=[pytest.mark.long] if k % 3 else []) for k, case in enumerate(cases)]
 
 
 def errors(case, motion, time):
@@ -117,7 +120,7 @@ def compare(case):
     return motion, time, impacts
 
 
-@pytest.mark.parametrize("case", FLYING + FALLING, ids=name_of)
+@pytest.mark.parametrize("case", sampled(FLYING) + sampled(FALLING), ids=name_of)
 def test_states_are_those_of_collocation(case):
     motion, time, impacts = compare(case)
     assert (motion.outcome is rk.Outcome.OVERTURNED) == (case.time == math.inf)
@@ -127,7 +130,8 @@ def test_states_are_those_of_collocation(case):
     assert impacts == times.size
 
 
-@pytest.mark.parametrize("case", [RESTING[0], *SLOW], ids=name_of)
+@pytest.mark.long
+@pytest.mark.parametrize("case", RESTING, ids=name_of)
 def test_block_that_rests_before_the_end_lifts_off_again_at_the_same_time(case):
     motion, time, _ = compare(case)
     lifts = motion.events["time"][motion.events["kind"] == "lift-off"]
@@ -225,7 +229,6 @@ def kernels():
     return at, later, ahead, change
 
 
-@COMPILES
 def test_largest_acceleration_ahead_is_the_least_bound(kernels):
     random = np.random.default_rng(3)
     for kind in FORMS:
@@ -240,7 +243,6 @@ def test_largest_acceleration_ahead_is_the_least_bound(kernels):
                     assert largest - 1e-14 <= bound <= largest + 1e-5
 
 
-@COMPILES
 def test_change_within_a_time_includes_the_jump_at_the_end(kernels):
     random, jumps = np.random.default_rng(4), 0
     for kind in FORMS:
@@ -255,7 +257,6 @@ def test_change_within_a_time_includes_the_jump_at_the_end(kernels):
     assert jumps > 0
 
 
-@COMPILES
 def test_drive_has_no_base_acceleration_from_the_end_on(kernels):
     p = parameters(rk.System(rk.Pulse("one-cosine", amplitude=2.0, duration=0.3), 0.9, critical_angle=0.3))
     at, later = kernels[:2]

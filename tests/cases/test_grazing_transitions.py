@@ -3,7 +3,6 @@
 import math
 
 import attrs
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -199,7 +198,6 @@ def test_picture_shows_both_distances_and_the_square_root_of_an_attractor_that_s
         np.testing.assert_allclose(y / y[-1], np.sqrt(x / x[-1]))
         assert np.abs(np.log(y / found.farthest)).max() < 0.6
     assert found._repr_html_().startswith("<figure>")
-    plt.close(ax.figure)
 
 
 def test_picture_of_a_jump_shows_a_horizontal_line_in_the_middle_of_a_decade():
@@ -209,7 +207,6 @@ def test_picture_of_a_jump_shows_a_horizontal_line_in_the_middle_of_a_decade():
     low, high = np.log10(ax.get_ylim())
     assert high - low == pytest.approx(1.0)
     assert np.abs(np.log10(found.farthest) - 0.5 * (low + high)).max() < 0.01
-    plt.close(ax.figure)
 
 
 def test_picture_refuses_other_results():

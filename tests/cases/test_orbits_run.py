@@ -206,6 +206,7 @@ def is_mirror_image(other, orbit):
     )
 
 
+@pytest.mark.long
 def test_orbits_too_unstable_to_follow_are_left_out_and_none_is_listed_twice():
     """A run from the start of one of period 12 overturns before its period is over."""
     system = system_of(8.0, 1.72, 0.8)

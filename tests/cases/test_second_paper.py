@@ -16,8 +16,6 @@ from rocking.papers.pulses_and_earthquakes.claims import CHAPTERS
 from rocking.papers.report import page
 from rocking.papers.report.claim import Standing
 
-pytestmark = pytest.mark.xdist_group("second_paper")  # the report is made once
-
 FIGURES = ["01", "02", "03", "04", "05"]
 ROWS = {(chapter.title, claim.compute.__name__): claim for chapter in CHAPTERS for claim in chapter}
 ZHANG, MAKRIS, ROUSSOS, HOUSNER = (

@@ -232,6 +232,7 @@ def systems(draw):
     return System(forcing, draw(floats(0, 1)), braces), start, draw(st.integers(1, 200))
 
 
+@pytest.mark.long
 @given(systems())
 @settings(max_examples=2000, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_systems_that_hypothesis_invents_run_to_the_end_of_their_budget(case):

@@ -76,7 +76,7 @@ def ran(script, name, folder):
     )
 
 
-@pytest.fixture(scope="module", params=SURVEYS)
+@pytest.fixture(scope="module", params=["map", pytest.param("ground-motions", marks=pytest.mark.long)])
 def name(request):
     return request.param
 

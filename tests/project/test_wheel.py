@@ -18,7 +18,7 @@ from scripts import wheel as script
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-pytestmark = [pytest.mark.xdist_group("wheel"), pytest.mark.long]  # it is made once
+pytestmark = pytest.mark.long
 
 
 @pytest.fixture(scope="module")

@@ -144,6 +144,10 @@ def test_first_zero_of_many_polynomials_is_that_of_exact_isolation(kernels, seed
     check_polynomials(kernels[0], MANY, seed)
 
 
+def test_a_start_that_rounding_put_below_zero_and_that_falls_is_the_zero(kernels):
+    assert kernels[0](-1e-17, -0.5, (0.1,) * 19, 1.0) == 0.0
+
+
 def start_of_step(random, sampled):
     """Return the start of a step and the order of its zero.
 

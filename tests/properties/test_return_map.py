@@ -23,7 +23,7 @@ from rocking.kernels.march.tangent import TangentState
 from rocking.kernels.orbits import fixed_point, newton_search
 
 # Its kernels are compiled once, for half a minute.
-pytestmark = [pytest.mark.xdist_group("return_map"), pytest.mark.long]
+pytestmark = pytest.mark.long
 
 STATES = 10_000
 # Of the start, the phase and the amplitude; a march rounds each of its events by some 10^-15.

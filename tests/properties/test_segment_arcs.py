@@ -91,7 +91,9 @@ def check(family, count, seed):
     assert not wrong, f"{len(wrong)} of {count} wrong; the first: {wrong[0]}"
 
 
-@pytest.mark.parametrize("family", COUNTS)
+@pytest.mark.parametrize(
+    "family", [pytest.param(each, marks=pytest.mark.long) if each == "long" else each for each in COUNTS]
+)
 def test_no_first_event_is_missed_or_misread(family):
     check(family, COUNTS[family], 0)
 

@@ -12,8 +12,6 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.orbits.fixed_point import FixedPoint, MapImage
 
-pytestmark = pytest.mark.xdist_group("approach")  # its kernels are compiled once
-
 RETURNS = 3_000
 FAR = 10.0
 REAL, COMPLEX, BALL = range(3)

@@ -1,4 +1,4 @@
-"""`rocking classify`: output, JSON, error messages and exit codes."""
+"""`rocking classify`: verdicts in JSON, what is said of a real block, and proofs."""
 
 import json
 
@@ -19,38 +19,6 @@ def told(rocking, line):
     code, message, out = rocking(f"classify {line} --json")
     assert (code, message) == (0, "")
     return json.loads(out, parse_constant=pytest.fail)
-
-
-def test_verdict_comes_first_then_the_question_and_the_answer(rocking):
-    code, message, out = rocking(f"classify {PERIODIC}")
-    verdict = rk.classify(*TENTH)
-    first, *table = out.splitlines()
-    assert (code, message, first) == (0, "", str(verdict))
-    text = [" ".join(line.split()) for line in table]
-    assert text == [
-        "forcing A = 5.5, T = 0.5, φ = 1.8",
-        "restitution e = 0.925",
-        "initial state Θ = 0, Θ' = 0.15",
-        "period 10 cycles, τ = 5",
-        "impacts per period 4",
-        f"Floquet multipliers {verdict.multipliers[0].real:.6g} ± {verdict.multipliers[0].imag:.6g}i",
-        f"largest Lyapunov exponent {verdict.exponent:.6g} per τ",
-        f"largest |Θ| {verdict.peak:.6g}",
-        f"largest |Θ| after the transient {verdict.steady_peak:.6g}",
-        f"transient at most {verdict.transient} cycles",
-        f"simulated {verdict.cycles} cycles, {verdict.impacts} events computed",
-    ]
-
-
-def test_summary_in_si_shows_degrees_the_top_and_seconds(rocking):
-    block = rk.Block(2.0, 0.5)
-    verdict = rk.classify(block.system(acceleration=4.0, frequency_hz=1.2))
-    out = " ".join(rocking(f"classify {SI}")[2].split())
-    degrees, top = block.degrees(verdict.peak), block.top_displacement(verdict.peak)
-    assert f"largest |Θ| {verdict.peak:.6g} {degrees:.4g}°, top {top:.4g} m" in out
-    assert f"{verdict.exponent:.6g} per τ {verdict.exponent * block.frequency_parameter:.4g} per s" in out
-    assert "period 1 cycle, τ = 2.22601 0.8333 s" in out
-    assert "e = 0.911765 Housner's value for this block" in out
 
 
 def test_json_agrees_with_the_verdict(rocking):
@@ -112,54 +80,9 @@ def test_period_looked_for_can_be_bounded(rocking):
     assert told(rocking, f"{PERIODIC} --max-period 10 --max-cycles 1000")["kind"] == "periodic"
 
 
-@pytest.mark.parametrize("line", [PERIODIC, RESET, FALLING, CHAOTIC, SI, f"{CHAOTIC} --max-cycles 9"])
-def test_every_kind_can_be_drawn_and_nothing_else_is_left(rocking, tmp_path, line):
-    code, _, out = rocking(f"classify {line} --plot a.png")
-    assert (code, out.splitlines()[-1]) == (0, "wrote a.png")
-    assert [path.name for path in tmp_path.iterdir()] == ["a.png"]
-    assert told(rocking, f"{line} --plot a.svg")["files"] == ["a.svg"]
-
-
-NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
-REFUSED = {
-    "--amplitude 2": "missing --period and --restitution: give --amplitude, --period (or --frequency) and --restitution",
-    f"{NORMALISED} --max-cycles 0": "--max-cycles must be a whole number in [1, 100000000]; got 0",
-    f"{NORMALISED} --max-cycles 1e9": "--max-cycles must be a whole number in [1, 100000000]; got 1000000000.0",
-    f"{NORMALISED} --max-cycles inf": "--max-cycles must be a whole number in [1, 100000000]; got inf",
-    f"{NORMALISED} --max-period 2.5": "--max-period must be a whole number in [1, 10000]; got 2.5",
-    f"{NORMALISED} --max-period many": "--max-period must be a number without a unit, such as 0.6; got 'many'",
-    f"{NORMALISED} --angle nan": "--angle must lie in [-1000, 1000]; got nan",
-    f"{NORMALISED} --brace-angle 0.5 --angle 0.6": "--angle must lie between the braces, in [-0.5, 0.5]; got 0.6",
-    f"{NORMALISED} --plot a.gif": "--plot must end in .png, .svg, .pdf; got 'a.gif'",
-    f"{NORMALISED} --plot nowhere/a.png": "--plot must lie in an existing folder; got 'nowhere/a.png'",
-}
-
-
-@pytest.mark.parametrize("line", REFUSED)
-def test_what_cannot_be_judged_is_refused_in_one_line(rocking, tmp_path, line):
-    assert rocking(f"classify {line}") == (2, REFUSED[line], "")
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("word", ["extra", "--nonsense", "--cycles 5", "--csv a.csv"])
-def test_unknown_words_are_refused_in_one_line(rocking, word):
-    code, message, out = rocking(f"classify {NORMALISED} {word}")
-    assert (code, out) == (2, "")
-    assert 0 < len(message) < 120
-
-
-def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
-    def fail(*_):
-        raise ZeroDivisionError
-
-    monkeypatch.setattr("rocking.kernels.batch.classify_one", fail)
-    code, message, out = rocking(f"classify {NORMALISED}")
-    assert (code, message.strip(), out) == (1, "internal error: ZeroDivisionError:", "")
-
-
 def test_interrupted_verdict_says_so_and_leaves_no_file(interrupted, tmp_path):
     line = f"classify {CHAOTIC} --max-cycles 1e8 --plot a.png"
-    assert interrupted(line, 2.0) == (130, b"", b"rocking: interrupted\n")
+    assert interrupted(line, 1.5) == (130, b"", b"rocking: interrupted\n")
     assert not list(tmp_path.iterdir())
 
 
@@ -197,15 +120,10 @@ def test_start_in_degrees_is_hinted_at(rocking):
         out = rocking(f"{command} {line} 3")[2]
         assert f"\nwarning: --{angle_doubt(3, f'3° is --angle {degrees:.4g}')}\n" in out
         assert "warning: --angle" not in rocking(f"{command} {line} 1.9")[2]
-        assert "not in degrees" in " ".join(rocking(f"{command} --help")[2].split())
 
 
-def test_proof_is_in_the_table_and_in_json(rocking):
+def test_proof_is_in_json(rocking):
     proof = rk.classify(*TENTH, prove=True).orbit.proof
-    out = " ".join(rocking(f"classify {PERIODIC} --prove")[2].split())
-    assert "Evidence: proved" in out
-    assert "In ball arithmetic, proved: exactly one asymmetric orbit of period 10" in out
-    assert "proof 128 bits, multipliers to ±" in out
     read = told(rocking, f"{PERIODIC} --prove")
     assert read["evidence"]["level"] == "proved"
     assert read["proof"]["claim"] == proof.claim

@@ -1,4 +1,4 @@
-"""`rocking continue`: one range among the options, output, files and error messages."""
+"""`rocking continue`: one range among the options, output and files."""
 
 import csv
 import json
@@ -70,9 +70,7 @@ def test_json_holds_the_numbers(rocking, branch):
 
 
 def test_files_hold_every_point(rocking, branch, tmp_path):
-    code, _, out = rocking(f"continue {LINE} --plot a.png --csv a.csv --netcdf a.nc")
-    assert (code, out.splitlines()[-3:]) == (0, ["wrote a.png", "wrote a.csv", "wrote a.nc"])
-    assert (tmp_path / "a.png").stat().st_size > 5000
+    assert rocking(f"continue {LINE} --csv a.csv --netcdf a.nc")[0] == 0
     with (tmp_path / "a.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     for heading, values in {
@@ -112,15 +110,6 @@ def test_response_period_finds_an_unstable_orbit_near_the_initial_state(rocking)
     assert [complex(*pair) for pair in read["orbit"]["multipliers"]] == list(orbit.multipliers)
     assert (read["orbit"]["period"], read["orbit"]["stability"]) == (3, "unstable")
     assert told(rocking, f"{line} --step 0.05")["orbit"]["stability"] == "stable"
-
-
-def test_an_orbit_of_a_shorter_response_period_is_refused_in_one_line(rocking):
-    line = "--amplitude 5:20 --at 15 --period 1 --restitution 0.9"
-    assert told(rocking, f"{line} --response-period 1")["orbit"]["period"] == 1
-    code, error, out = rocking(f"continue {line} --response-period 2")
-    assert (code, out) == (2, "")
-    assert "must have --response-period 2; got period 1 (give --angle and --velocity nearer" in error
-    assert len(error.splitlines()) == 1
 
 
 @pytest.mark.parametrize(
@@ -192,79 +181,3 @@ def test_full_block_is_followed(rocking):
     assert read["peak"] == branch.points["peak"].max()
     assert read["warnings"] == []
     assert "outside the slender range" in rocking(f"continue {line}")[2]
-
-
-NORMALISED = "--period 1 --restitution 0.9"
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        (f"--amplitude 2 {NORMALISED}", "exactly one option must be a range, START:STOP; got none"),
-        (
-            "--amplitude 2:3 --period 1:2 --restitution 0.9",
-            "exactly one option must be a range, START:STOP; got --amplitude and --period",
-        ),
-        (f"--amplitude 2:2 {NORMALISED}", "--amplitude must be a number or START:STOP"),
-        (
-            f"--amplitude 2:3:9 {NORMALISED}",
-            "--amplitude must be a number or START:STOP",
-        ),
-        (f"--amplitude -1:2 {NORMALISED}", "--amplitude must lie in [0, 1000]; got -1.0"),
-        ("--amplitude 2:3 --period 1", "missing --restitution: give --amplitude"),
-        ("--amplitude 2 --period 1 --restitution 0.9 --phase 0:1", "--phase must be a"),
-        (f"--amplitude 2:3 {NORMALISED} --at 4", "--at must lie in [2, 3]; got 4"),
-        (f"--amplitude 3:2 {NORMALISED} --at nan", "--at must lie in [2, 3]; got nan"),
-        (f"--amplitude 2:3 {NORMALISED} --step 1", "--step must lie in [1e-06, 0.1]; got 1"),
-        # the response is at rest: what is invalid is found before it is computed
-        (f"--amplitude 0.5:3 {NORMALISED} --step 1", "--step must lie in [1e-06, 0.1]; got 1"),
-        ("--amplitude 0.5 --period 1 --restitution 0.9:0", "--restitution must lie in [0.001, 1]; got 0.0"),
-        (
-            "--amplitude 2 --period 1 --restitution 0.9:0",
-            "--restitution must lie in [0.001, 1]; got 0.0",
-        ),
-        (
-            f"--amplitude 0.5:3 {NORMALISED}",
-            "the response from the initial state must be periodic; got rest (give --response-period, another --at, or another --angle",
-        ),
-        (
-            f"--amplitude 3:2 {NORMALISED} --response-period 0",
-            "--response-period must be a whole number in [1, 1000]; got 0",
-        ),
-        (
-            f"--amplitude 3:2 {NORMALISED} --response-period 1 --angle 3",
-            "the initial state must not overturn within 2 cycles; got --angle 3 and --velocity 0 (give --angle and",
-        ),
-        (
-            f"--amplitude 3:2 {NORMALISED} --response-period 5 --angle 0.3",
-            "no orbit of period 5 was found from --angle 0.3 and --velocity 0",
-        ),
-        (f"--amplitude 3:2 {NORMALISED} --response-period 1 --angle 0.81", "orbit must have an impact"),
-        (
-            "--height 2 --width 0.5 --displacement 0.1 --frequency-hz 1:2",
-            "--displacement with a range of --frequency-hz varies amplitude and frequency: use --acceleration instead",
-        ),
-        (f"--amplitude 2:3 {NORMALISED} --plot a.gif", "--plot must end in .png, .svg, .pdf; got 'a.gif'"),
-    ],
-)
-def test_refusals_are_one_line_and_leave_nothing(rocking, tmp_path, line, message):
-    code, said, out = rocking(f"continue {line}")
-    assert (code, out) == (2, "")
-    assert said.startswith(message)
-    assert "\n" not in said
-    assert not list(tmp_path.iterdir())
-
-
-def test_remedy_for_an_orbit_that_cannot_be_followed_is_an_option(rocking):
-    line = (
-        "--amplitude 2:3 --period 1 --restitution 0.9 --critical-angle 0.2 --response-period 1 --angle 0.95"
-    )
-    code, said, _ = rocking(f"continue {line}")
-    assert code == 2
-    assert said.startswith("orbit must have impacts")
-    assert said.endswith("(give another --at)")
-
-
-def test_message_on_an_orbit_that_is_not_found_names_the_options(rocking):
-    said = rocking(f"continue --amplitude 3:2 {NORMALISED} --response-period 5 --angle 0.3")[1]
-    assert said.endswith("(give --angle and --velocity nearer to the orbit, or another --response-period)")

@@ -11,16 +11,6 @@ import time
 from pathlib import Path
 from urllib.parse import urlsplit
 
-import pytest
-
-
-@pytest.mark.parametrize("port", ["65536", "-1", "1.5", "abc"])
-def test_port_that_is_none_is_refused(rocking, port):
-    assert rocking(f"explore --no-browser --port={port}")[:2] == (
-        2,
-        f"--port must be a whole number in [0, 65535]; got {port}",
-    )
-
 
 def test_port_in_use_is_told_with_the_way_out(rocking):
     with socket.create_server(("127.0.0.1", 0)) as taken:

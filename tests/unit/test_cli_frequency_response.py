@@ -1,4 +1,4 @@
-"""`rocking frequency-response`: output, files and error messages."""
+"""`rocking frequency-response`: output and files."""
 
 import csv
 import json
@@ -53,9 +53,7 @@ def test_json_holds_the_numbers(rocking, found):
 
 
 def test_files_hold_branches_and_responses_from_rest(rocking, found, tmp_path):
-    code, _, out = rocking(f"frequency-response {LINE} --plot a.png --csv a.csv --netcdf a.nc")
-    assert (code, out.splitlines()[-3:]) == (0, ["wrote a.png", "wrote a.csv", "wrote a.nc"])
-    assert (tmp_path / "a.png").stat().st_size > 5000
+    assert rocking(f"frequency-response {LINE} --csv a.csv --netcdf a.nc")[0] == 0
     with (tmp_path / "a.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     for number, branch in enumerate(found.branches):
@@ -93,7 +91,7 @@ def test_modes_frequency_and_number_of_cycles_are_passed_on(rocking):
 def test_block_in_si_has_its_units_beside(rocking, tmp_path, axis, key):
     block = rk.Block(2.0, 0.5)
     first, last = (float(each) for each in axis.split()[1].split(":")[:2])
-    out = rocking(f"frequency-response {SI} {axis} --csv a.csv --netcdf a.nc --plot a.svg")[2]
+    out = rocking(f"frequency-response {SI} {axis} --csv a.csv --netcdf a.nc")[2]
     assert f"{first:.4g} to {last:.4g} {'Hz' if key == 'frequency_hz' else 's'}" in out
     read = told(rocking, f"{SI} {axis}")
     assert read["amplitude"] == pytest.approx(block.amplitude(4.0))
@@ -112,11 +110,6 @@ def test_block_in_si_has_its_units_beside(rocking, tmp_path, axis, key):
     assert data.attrs["block_width_m"] == 0.5
 
 
-def test_squat_block_is_warned_of(rocking):
-    line = "--height 2 --width 1.5 --acceleration 3 --frequency-hz 1:2:3"
-    assert "warning: outside the slender range" in rocking(f"frequency-response {line}")[2]
-
-
 def test_no_branch_and_no_motion_is_a_result(rocking):
     line = "--amplitude 0.1 --period 1:2:3 --restitution 0.2 --modes 1"
     code, message, out = rocking(f"frequency-response {line} --plot a.png --csv a.csv --netcdf a.nc")
@@ -125,63 +118,8 @@ def test_no_branch_and_no_motion_is_a_result(rocking):
     assert told(rocking, line)["branches"] == []
 
 
-NORMALISED = "--period 1:2:3 --restitution 0.9"
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        ("", "missing --amplitude and --period and --restitution: give --amplitude, --period"),
-        ("--amplitude 2 --restitution 0.9", "missing --period: give --amplitude, --period (or --frequency)"),
-        (
-            "--amplitude 2 --period 1 --restitution 0.9",
-            "--period must be an axis, START:STOP:COUNT with",
-        ),
-        ("--amplitude 2 --period 0:1:3 --restitution 0.9", "--period must lie in "),
-        (
-            f"--amplitude 2 --frequency 1:2:3 {NORMALISED}",
-            "give exactly one of --period, --frequency; got",
-        ),
-        (f"--amplitude 0 {NORMALISED}", "--amplitude must be above 0: without forcing there is no (1, n)"),
-        (
-            "--amplitude 2 --period 1:2:3 --restitution 1",
-            "--restitution must lie in [0.001, 1); got 1.0 (an undamped motion never reaches a steady response; rocking modes",
-        ),
-        (
-            f"--amplitude 2 {NORMALISED} --modes 2",
-            "--modes must be odd: no symmetric orbit repeats after an even number of cycles; got 2",
-        ),
-        (f"--amplitude 2 {NORMALISED} --modes 1,3", "--modes must be a number"),
-        (f"--amplitude 2 {NORMALISED} --step 5", "--step must lie in [1e-06, 0.1]; got 5"),
-        # there is no orbit to follow
-        (f"--amplitude 0.1 {NORMALISED} --step 5", "--step must lie in [1e-06, 0.1]; got 5"),
-        (f"--amplitude 2 {NORMALISED} --max-cycles 0", "--max-cycles must be a whole number in [1, "),
-        (f"--amplitude 2 {NORMALISED} --model full", "No such option: --model"),
-        (
-            "--height 2 --width 0.5 --acceleration 0 --frequency-hz 1:2:3",
-            "--acceleration must be above 0: without forcing",
-        ),
-        (
-            "--height 2 --width 0.5 --frequency-hz 1:2:3",
-            "missing --acceleration: give --height, --width, --acceleration (or --acceleration-g) and --frequency-hz",
-        ),
-        (
-            "--height 2 --width 0.5 --acceleration 3 --period 1:2:3",
-            "--period is normalised and --height is SI: use one of the two (the SI option is --period-s)",
-        ),
-        (f"--amplitude 2 {NORMALISED} --csv a.nc", "--csv must end in .csv; got 'a.nc'"),
-    ],
-)
-def test_refusals_are_one_line_and_leave_nothing(rocking, tmp_path, line, message):
-    code, said, out = rocking(f"frequency-response {line}")
-    assert (code, out) == (2, "")
-    assert said.startswith(message)
-    assert "\n" not in said
-    assert not list(tmp_path.iterdir())
-
-
 def test_what_is_invalid_is_refused_before_orbits_are_followed(rocking, monkeypatch):
     monkeypatch.setattr(sys.modules["rocking.orbits.frequency_response"], "continue_orbit", pytest.fail)
-    code, said, _ = rocking(f"frequency-response --amplitude 2 {NORMALISED} --max-cycles 0")
+    code, said, _ = rocking(f"frequency-response {LINE} --max-cycles 0")
     assert code == 2
     assert said.startswith("--max-cycles must be a whole number in [1, ")

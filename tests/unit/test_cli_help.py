@@ -9,6 +9,8 @@ import typer
 from rocking.cli.app import app
 
 COMMANDS = list(typer.main.get_command(app).commands)
+FEWER = {"orbits": " --effort 0.05", "basins": " --boundary-runs 100"}
+"""Options that make the examples of a command shorter."""
 WITHOUT_EXAMPLES = {"explore", "cite"}
 WITH_BLOCK = {"record", "spectrum", "fragility", "overturning-set", "sensitivity"}
 WITH_SYSTEM = set(COMMANDS) - {"explore", "paper", "cite"} - WITH_BLOCK
@@ -26,7 +28,7 @@ def made_small(example):
     """Return an example with fewer points, cycles or samples, which run the same code in less time."""
     # the third number of an axis; the second one of a range is its end
     example = re.sub(r"(:[^ :]+:)(\d+)\b(?= |$)", lambda axis: f"{axis[1]}{min(int(axis[2]), 9)}", example)
-    return re.sub(r"--samples \d+", "--samples 50", example)
+    return re.sub(r"--samples \d+", "--samples 50", example) + FEWER.get(example.split()[1], "")
 
 
 def test_list_of_commands_has_whole_sentences(rocking):
@@ -37,19 +39,14 @@ def test_list_of_commands_has_whole_sentences(rocking):
     assert all(line.endswith(".") and not line.endswith("...") for line in listed)
 
 
-def test_short_name_of_the_option_is_known_to_all(rocking):
-    for command in ("", *COMMANDS):
-        assert rocking(f"{command} -h") == rocking(f"{command} --help")
-
-
-@pytest.mark.parametrize("columns", [80, 120])
 @pytest.mark.parametrize("command", ["", *COMMANDS])
-def test_help_fits_the_terminal_and_breaks_no_name(rocking, monkeypatch, command, columns):
-    monkeypatch.setenv("COLUMNS", str(columns))
-    printed = rocking(f"{command} --help")[2]
-    assert max(map(len, printed.splitlines())) <= columns
-    assert not re.search(r"\w-$|Default:$", printed, re.MULTILINE)
-    assert not set(printed) & {"\u2011", "\u00a0", "\b"}
+def test_help_fits_the_terminal_and_breaks_no_name(rocking, monkeypatch, command):
+    for columns, option in ((80, "-h"), (120, "--help")):
+        monkeypatch.setenv("COLUMNS", str(columns))
+        printed = rocking(f"{command} {option}")[2]
+        assert max(map(len, printed.splitlines())) <= columns
+        assert not re.search(r"\w-$|Default:$", printed, re.MULTILINE)
+        assert not set(printed) & {"\u2011", "\u00a0", "\b"}
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -74,20 +71,6 @@ def test_options_stand_in_their_groups_with_their_defaults(rocking, command):
         assert others.startswith("  --restitution ")
 
 
-@pytest.mark.parametrize(
-    "command, default",
-    [
-        ("simulate", "simulate. Default: 200."),
-        ("simulate", "rad. Default: 0."),
-        ("classify", "forcing cycles. Default: 100,000."),
-        ("explore", "a free port. Default: 5006."),
-        ("paper", "written. Default: results/yim-lin-1991."),
-    ],
-)
-def test_default_is_a_sentence(rocking, command, default):
-    assert default in " ".join(rocking(f"{command} --help")[2].split())
-
-
 @pytest.mark.parametrize("command", COMMANDS)
 def test_each_example_can_be_copied_and_runs(rocking, tmp_path, command):
     code, _, told = rocking(f"{command} --help")
@@ -102,8 +85,3 @@ def test_each_example_can_be_copied_and_runs(rocking, tmp_path, command):
             typed[typed.index(option) + 1] for option in ("--plot", "--store", "--output") if option in typed
         ]
         assert all((tmp_path / name).exists() for name in named), number
-
-
-def test_polarity_is_said_to_have_no_effect_on_a_block_at_rest(rocking):
-    printed = " ".join(rocking("overturning-set --help")[2].split())
-    assert "no effect on a block at rest, which is symmetric" in printed

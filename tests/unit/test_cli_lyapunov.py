@@ -1,4 +1,4 @@
-"""`rocking lyapunov`: output, files and error messages."""
+"""`rocking lyapunov`: output and files."""
 
 import csv
 import json
@@ -44,13 +44,6 @@ def test_json_holds_the_numbers(rocking):
     assert read["errors"] == spectrum.errors.tolist()
     assert tuple(read["kaplan_yorke"]) == spectrum.kaplan_yorke
     assert (read["amplitude"], read["cycles"]) == (10.103037, 3000)
-
-
-def test_block_in_si_has_rates_per_second(rocking):
-    out = rocking(f"lyapunov {SI}")[2]
-    assert " per s" in out
-    assert told(rocking, SI)["block"]["height_m"] == 2.0
-    assert " per s" not in rocking(f"lyapunov {CHAOS}")[2]
 
 
 def test_each_error_in_si_is_per_second_in_text_json_and_file(rocking, tmp_path):
@@ -105,15 +98,6 @@ def test_plot_of_superstable_exponents_is_written_with_the_other_files(rocking, 
     assert "perturbations vanish" in (tmp_path / "a.svg").read_text()
 
 
-def test_files_are_written(rocking, tmp_path):
-    code, _, out = rocking(f"lyapunov {CHAOS} --plot {tmp_path}/a.png --netcdf {tmp_path}/a.nc")
-    assert code == 0
-    assert f"{tmp_path}/a.png" in out
-    assert (tmp_path / "a.png").stat().st_size > 5000
-    data = xr.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
-    assert data["value"].values.tolist() == spectrum_of_chaos().values.tolist()
-
-
 def test_csv_holds_the_running_estimates_in_both_units(rocking, tmp_path):
     block = rk.Block(2.0, 0.5)
     spectrum = rk.lyapunov(block.system(acceleration=4.0, frequency_hz=1.2), cycles=300)
@@ -129,23 +113,3 @@ def test_csv_holds_the_running_estimates_in_both_units(rocking, tmp_path):
             assert [float(row[f"{heading} [1/s]"]) for row in rows] == pytest.approx(
                 expected / block.seconds(1.0)
             )
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        (
-            "--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 20",
-            "--cycles must be a whole number in [32, ",
-        ),
-        ("--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 0", "--cycles must"),
-        ("--amplitude 10.1 --period 1.7 --restitution 0.8 --transient -1", "--transient must"),
-        ("--amplitude 60 --period 1 --restitution 0.9", "overturning is certain"),
-        ("--amplitude 60", "--period"),
-    ],
-)
-def test_refusals_are_one_line(rocking, line, message):
-    code, said, out = rocking(f"lyapunov {line}")
-    assert (code, out) == (2, "")
-    assert message in said
-    assert "\n" not in said

@@ -1,4 +1,4 @@
-"""`rocking orbit-diagram`: one axis among the options, output, files and error messages."""
+"""`rocking orbit-diagram`: one axis among the options, output and files."""
 
 import csv
 import json
@@ -21,19 +21,6 @@ def told(rocking, line):
     return json.loads(out, parse_constant=pytest.fail)
 
 
-def test_answer_comes_first_then_what_was_varied_and_what_not(rocking):
-    code, message, out = rocking(f"orbit-diagram {LINE}")
-    assert (code, message) == (0, "")
-    text = [" ".join(line.split()) for line in out.splitlines()]
-    assert text == [
-        str(DIAGRAM),
-        "varied --amplitude 10.4 to 11.5",
-        "fixed period 1.72133, phase 0, restitution 0.8",
-        f"largest |Θ|, up {np.nanmax(DIAGRAM.peak[0]):.6g}",
-        f"largest |Θ|, down {np.nanmax(DIAGRAM.peak[1]):.6g}",
-    ]
-
-
 def test_json_agrees_with_the_diagram(rocking):
     read = told(rocking, f"{LINE} --json")
     assert (read["parameter"], read["first"], read["last"], read["count"]) == ("amplitude", 10.4, 11.5, 12)
@@ -49,8 +36,7 @@ def test_json_agrees_with_the_diagram(rocking):
 def test_files_hold_every_point(rocking, tmp_path):
     import xarray as xr
 
-    code, _, out = rocking(f"orbit-diagram {LINE} --plot a.png --csv a.csv --netcdf a.nc")
-    assert (code, out.splitlines()[-3:]) == (0, ["wrote a.png", "wrote a.csv", "wrote a.nc"])
+    assert rocking(f"orbit-diagram {LINE} --csv a.csv --netcdf a.nc")[0] == 0
     with (tmp_path / "a.csv").open() as file:
         head, *rows = csv.reader(file)
     angle, velocity = "angle [theta_cr]", "velocity [alpha theta_cr]"
@@ -62,7 +48,6 @@ def test_files_hold_every_point(rocking, tmp_path):
     np.testing.assert_array_equal(kept, DIAGRAM.points[~DIAGRAM.overturned].reshape(-1, 2))
     with xr.open_dataset(tmp_path / "a.nc") as read:
         np.testing.assert_array_equal(read["angle"], DIAGRAM.points[..., 0])
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.nc", "a.png"]
 
 
 @pytest.mark.parametrize(
@@ -123,75 +108,6 @@ def test_all_overturned_has_no_peak(rocking):
     assert read["sweeps"][0]["peak"] is None
 
 
-NORMALISED = "--period 1 --restitution 0.9"
-
-
-@pytest.mark.parametrize(
-    "line, message",
-    [
-        (f"--amplitude 2 {NORMALISED}", "exactly one option must be an axis, START:STOP:COUNT; got none"),
-        (
-            "--amplitude 1:2 --period 1:2 --restitution 0.9",
-            "exactly one option must be an axis, START:STOP:COUNT; got --amplitude and --period",
-        ),
-        (
-            f"--amplitude 1:2:1 {NORMALISED}",
-            "--amplitude must be a number or START:STOP:",
-        ),
-        (
-            f"--amplitude 1:1:9 {NORMALISED}",
-            "--amplitude must be a number or START:STOP:",
-        ),
-        (
-            f"--amplitude 1:2:3:4 {NORMALISED}",
-            "--amplitude must be a number or START:STOP:",
-        ),
-        (f"--amplitude 1:x {NORMALISED}", "--amplitude must be a number or START:STOP:"),
-        (f"--amplitude 1:nan {NORMALISED}", "--amplitude must"),
-        (f"--amplitude x {NORMALISED}", "--amplitude must be a number"),
-        (f"--amplitude -1:2 {NORMALISED}", "--amplitude must lie in [0, 1000]; got -1.0"),
-        ("--amplitude 2 --period 1 --restitution 0.5:1.5", "--restitution must lie in [0, 1]; got 1.5"),
-        (
-            f"--amplitude 1:2 {NORMALISED} --sweep round",
-            "--sweep must be one of 'up', 'down', 'both', 'rest'",
-        ),
-        (f"--amplitude 1:2 {NORMALISED} --cycles 0", "--cycles must be a whole number in [1, "),
-        (
-            f"--amplitude 1:2 {NORMALISED} --transient -1",
-            "--transient must be a whole number in [0, 1000000]",
-        ),
-        (f"--amplitude 1:2 {NORMALISED} --section-phase 1e9", "--section-phase must lie in"),
-        (f"--amplitude 1:2 {NORMALISED} --plot a.gif", "--plot must end in .png, .svg, .pdf; got 'a.gif'"),
-        (f"--amplitude 1:2 {NORMALISED} --csv a/b.csv", "--csv must lie in an existing folder"),
-        (f"--amplitude 2 {NORMALISED} --brace-restitution 0:1", "--brace-restitution needs --brace-angle"),
-        (
-            "--height 2 --width 0.5 --displacement 0.1 --frequency-hz 1:2",
-            "--displacement with an axis of --frequency-hz varies amplitude and frequency: use --acceleration instead",
-        ),
-        ("--amplitude 1:2 --period 1", "missing --restitution: give --amplitude"),
-        (
-            "--height 1:2 --width 0.5",
-            "--height must be a number without a unit, such as 0.6; got '1:2'",
-        ),
-    ],
-)
-def test_refusals_are_one_line_and_leave_nothing(rocking, tmp_path, line, message):
-    code, said, out = rocking(f"orbit-diagram {line}")
-    assert code == 2
-    assert said.startswith(message)
-    assert "\n" not in said + out
-    assert not list(tmp_path.iterdir())
-
-
-def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
-    def fail(*_):
-        raise ZeroDivisionError
-
-    monkeypatch.setattr("rocking.kernels.march.sweep.sweep", fail)
-    code, message, out = rocking(f"orbit-diagram {LINE}")
-    assert (code, message.strip(), out) == (1, "internal error: ZeroDivisionError:", "")
-
-
 def test_run_in_a_terminal_shows_a_bar_on_stderr(terminal, monkeypatch):
     monkeypatch.setattr("sys.argv", ["rocking", "orbit-diagram", *LINE.split()])
     from rocking.cli.main import run
@@ -201,8 +117,8 @@ def test_run_in_a_terminal_shows_a_bar_on_stderr(terminal, monkeypatch):
 
 
 def test_interrupted_diagram_says_so_and_leaves_no_file(interrupted, tmp_path):
-    line = f"orbit-diagram --amplitude 7:10:1000 {NORMALISED} --transient 1e6 --plot a.png"
-    assert interrupted(line, 3.0) == (130, b"", b"rocking: interrupted\n")
+    line = "orbit-diagram --amplitude 7:10:1000 --period 1 --restitution 0.9 --transient 1e6 --plot a.png"
+    assert interrupted(line, 1.5) == (130, b"", b"rocking: interrupted\n")
     assert not list(tmp_path.iterdir())
 
 
@@ -237,5 +153,3 @@ def test_block_has_its_accelerations_in_json_and_its_warnings(rocking):
     assert up["overturned_at_acceleration_m_per_s2"] == pytest.approx(expected)
     assert up["peak_deg"] == pytest.approx(block.degrees(up["peak"]))
     assert read["warnings"] == []
-    squat = rocking(f"orbit-diagram {IN_SI.replace('0.5', '1.5')} --transient 5 --cycles 2")[2]
-    assert "warning: outside the slender range" in squat

@@ -1,4 +1,4 @@
-"""`rocking orbits`: output, files and error messages."""
+"""`rocking orbits`: output and files."""
 
 import csv
 import json
@@ -72,8 +72,7 @@ def test_json_holds_the_numbers(rocking, found):
 
 
 def test_files_hold_every_orbit(rocking, found, tmp_path):
-    code, _, out = rocking(f"orbits {LINE} --csv a.csv --netcdf a.nc")
-    assert (code, out.splitlines()[-2:]) == (0, ["wrote a.csv", "wrote a.nc"])
+    assert rocking(f"orbits {LINE} --csv a.csv --netcdf a.nc")[0] == 0
     with (tmp_path / "a.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     multipliers = [
@@ -119,8 +118,6 @@ def test_full_block_is_searched(rocking):
     assert [each["start"]["angle"] for each in told(rocking, f"{line} --model full")["orbits"]] == [
         orbit.start.angle for orbit in expected
     ]
-    assert "outside the slender range" in rocking(f"orbits {line.replace('0.5 ', '1 ')}")[2]
-    assert "outside the slender range" not in rocking(f"orbits {line.replace('0.5 ', '1 ')} --model full")[2]
 
 
 def test_impacts_on_braces_have_a_column(rocking):
@@ -143,31 +140,6 @@ def test_long_list_is_cut_in_the_text_alone(rocking, monkeypatch, found):
     assert f"and {len(found) - 2} more (all of them with --json, --csv or --netcdf)" in out
     assert len(table(out)) == 1 + 2 + 1
     assert len(told(rocking, LINE)["orbits"]) == len(found)
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        ("", "no system is given: give --amplitude"),
-        ("--amplitude 5.5 --period 0.5", "missing --restitution: give --amplitude"),
-        (f"{LINE} --max-period 0", "--max-period must be a whole number in [1, 64]; got 0"),
-        (f"{LINE} --effort 0", "--effort must lie in [0.01, 1000]; got 0"),
-        (f"{LINE} --seed -1", "--seed must be a whole number in [0, "),
-        (f"{LINE} --csv a.txt", "--csv must end in .csv; got 'a.txt'"),
-        (f"{LINE} --prove --critical-angle 0.2", "proofs are available for the slender block only"),
-        (
-            "--amplitude 5:6 --period 0.5 --restitution 0.9",
-            "--amplitude must be a number",
-        ),
-        (f"{LINE} --angle 0.1", "No such option: --angle"),
-    ],
-)
-def test_refusals_are_one_line_and_leave_nothing(rocking, tmp_path, line, message):
-    code, said, out = rocking(f"orbits {line}")
-    assert (code, out) == (2, "")
-    assert said.startswith(message)
-    assert "\n" not in said
-    assert not list(tmp_path.iterdir())
 
 
 def test_numbers_of_the_size_of_rounding_errors_are_shown_as_zero(rocking):

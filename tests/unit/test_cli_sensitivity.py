@@ -1,4 +1,4 @@
-"""`rocking sensitivity`: the numbers of the function, sources, files, study files and errors."""
+"""`rocking sensitivity`: the numbers of the function, sources and files."""
 
 import csv
 import json
@@ -43,15 +43,6 @@ def test_report_has_the_numbers_of_the_function(rocking):
     assert lines[7].startswith("equation of motion: small angles; moments overestimated by up to 3.1 %")
 
 
-def test_wide_and_large_blocks_are_warned_of(rocking):
-    line = "set --height 190 --width 70 --scale 0.5:3:4"
-    text = rocking(f"sensitivity {line}")[2]
-    assert "warning: height 190 m is unusual: sizes are in metres" in text
-    assert "warning: outside the slender range, θcr = 0.353 rad" in text
-    full = json.loads(rocking(f"sensitivity {line} --model full --json")[2])
-    assert (full["model"], full["warnings"]) == ("full", ["height 190 m is unusual: sizes are in metres"])
-
-
 @pytest.mark.parametrize(
     ("source", "read"), [("table.csv", "table.csv"), ("set/r0.csv set/r3.csv", ["set/r0.csv", "set/r3.csv"])]
 )
@@ -75,40 +66,3 @@ def test_files_and_json_hold_the_numbers_of_the_function(rocking, tmp_path, sour
     with xr.open_dataset("a.nc", engine="h5netcdf") as kept:
         assert np.array_equal(kept.differs, found.differs)
         assert kept.attrs["block_width_m"] == 0.5
-
-
-def test_study_states_the_options(rocking, tmp_path):
-    (tmp_path / "study.toml").write_text(
-        'height = 2\nwidth = 0.5\npga_g = "0.3:1.5:13"\nseed = 2\nrestitution = 0.8\n',
-        encoding="utf-8",
-    )
-    said = rocking("sensitivity set --study study.toml --json")
-    assert said[0] == 0
-    assert said == rocking(f"sensitivity set {LINE} --seed 2 --restitution 0.8 --json")
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        ("set --height 2 --width 0.5", "give exactly one of --scale, --pga, --pga-g"),
-        ("set --height 2 --pga-g 0.5:1", "missing --width: give --height and --width"),
-        (f"set {LINE} --pga 1:2", "give exactly one of --scale, --pga, --pga-g"),
-        ("set --height 2 --width 0.5 --pga 1", "--pga must be an axis, START:STOP:COUNT; got 1"),
-        (f"set {LINE} --restitution 1", "the block must have a restitution in [0.02, 0.98]; got 1.0"),
-        (f"set {LINE} --restitution 2", "--restitution must lie in [0, 1]; got 2"),
-        (f"set {LINE} --seed -1", "--seed must be a whole number in [0, 4294967295]; got -1"),
-        (f"none.csv {LINE}", "none.csv: cannot be read: No such file or directory; check the path"),
-        (f"table.csv {LINE} --csv set/r1.csv", "--csv must not overwrite a record; got 'set/r1.csv'"),
-        (f"set {LINE} --csv a.nc", "--csv must end in .csv"),
-        (f"set {LINE} --plot a.png", "No such option: --plot"),
-        (f"set {LINE} --study wrong.toml", "study 'wrong.toml': unknown 'sed' (did you mean 'seed'?)"),
-        (f"set {LINE} --study type.toml", "study 'type.toml': seed must be a number; got '1'"),
-    ],
-)
-def test_errors_name_the_options(rocking, tmp_path, line, message):
-    (tmp_path / "wrong.toml").write_text("sed = 1\n", encoding="utf-8")
-    (tmp_path / "type.toml").write_text("seed = '1'\n", encoding="utf-8")
-    code, told, out = rocking(f"sensitivity {line}")
-    assert (code, out) == (2, "")
-    assert told.startswith(message)
-    assert "\n" not in told.strip()

@@ -1,8 +1,7 @@
-"""`rocking spectrum`: sources, report, files and errors."""
+"""`rocking spectrum`: sources, report and files."""
 
 import csv
 import json
-import re
 
 import numpy as np
 import pytest
@@ -26,10 +25,6 @@ def records(tmp_path, monkeypatch):
     (folder / "a.AT2").write_text("\n".join(write.peer(WAVE)), encoding="utf-8")
     (folder / "b.AT2").write_text("\n".join(write.peer(-0.5 * WAVE)), encoding="utf-8")
     (tmp_path / "table.csv").write_text("file,scale\nset/a.AT2,0.5\nset/b.AT2,\n", encoding="utf-8")
-    (tmp_path / "plain").mkdir()
-    (tmp_path / "plain" / "c.csv").write_text("time (s), acceleration (g)\n0, 0\n1, 1\n", encoding="utf-8")
-    (tmp_path / "list.csv").write_text("file\nplain/c.csv\n", encoding="utf-8")
-    (tmp_path / "bare.txt").write_text("0\n4\n-4\n0\n", encoding="utf-8")
 
 
 def told(rocking, line):
@@ -65,9 +60,7 @@ def test_report_says_records_blocks_and_outcomes(rocking):
     ("source", "read"),
     [
         ("set", "set"),
-        ("set/a.AT2 set/b.AT2", ["set/a.AT2", "set/b.AT2"]),
         ("table.csv", "table.csv"),
-        ("example", EXAMPLE_FILE),
         ("example set/a.AT2", [EXAMPLE_FILE, "set/a.AT2"]),
     ],
 )
@@ -133,23 +126,14 @@ def test_wide_and_large_blocks_are_warned_of(rocking):
     assert (full["model"], full["warnings"]) == ("full", [])
 
 
-def test_plot_and_store_are_written_and_a_study_states_options(rocking, tmp_path):
-    (tmp_path / "study.toml").write_text(
-        'size = "0.3:3:10"\nslenderness-deg = [8, 10]\nunits = "g"\nstep = 0.01\nbaseline = "mean"\n',
-        encoding="utf-8",
-    )
+def test_options_of_reading_are_those_of_the_reader_and_a_store_is_written(rocking, tmp_path):
     (tmp_path / "plain.txt").write_text("\n".join(map(str, WAVE)), encoding="utf-8")
-    said = json.loads(
-        told(rocking, "plain.txt --study study.toml --plot out.png --store out.zarr --size 0.5:1:5 --json")
-    )
-    assert said["axes"]["size"] == {"start": 0.5, "stop": 1.0, "count": 5}
-    assert said["axes"]["slenderness"]["count"] == 2
-    assert said["files"] == ["out.zarr", "out.png"]
-    assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
-    mean = rk.read_ground_motion("plain.txt", units="g", step=0.01, baseline="mean")
-    assert said["records"][0]["pga_m_per_s2"] == mean.pga
-    said = json.loads(told(rocking, "plain.txt --study study.toml --baseline none --json"))
-    assert said["records"][0]["pga_m_per_s2"] == G * np.abs(WAVE).max()
+    line = "plain.txt --units g --step 0.01 --size 0.5:1:5 --slenderness-deg 8:10:2 --store out.zarr --json"
+    for baseline in ("mean", "none"):
+        said = json.loads(told(rocking, f"{line.replace('out', baseline)} --baseline {baseline}"))
+        motion = rk.read_ground_motion("plain.txt", units="g", step=0.01, baseline=baseline)
+        assert said["records"][0]["pga_m_per_s2"] == motion.pga
+        assert said["files"] == [f"{baseline}.zarr"]
 
 
 def test_warning_of_the_reader_is_reported(rocking, tmp_path):
@@ -158,94 +142,3 @@ def test_warning_of_the_reader_is_reported(rocking, tmp_path):
     (tmp_path / "a.smc").write_text(text, encoding="utf-8")
     said = json.loads(told(rocking, "a.smc --size 0.3:3:4 --slenderness-deg 10 --json"))
     assert said["warnings"] == ["a.smc: the samples have a PGA of 2 m/s², the header states 9 m/s²"]
-
-
-BLOCK = "--size 0.3:3:4 --slenderness-deg 10"
-REFUSED = {
-    "no source": (BLOCK, "Missing argument 'SOURCE'."),
-    "no block": (
-        "set",
-        "missing --size and --slenderness-deg: give --size and --slenderness-deg, or --height and --width",
-    ),
-    "height alone": ("set --height 2", "missing --size and --slenderness-deg: give"),
-    "both shapes": (
-        f"set {BLOCK} --width 1",
-        "give --slenderness-deg or --width, not both: height and width state",
-    ),
-    "both levels": (f"set {BLOCK} --scale 1 --pga-g 1", "give --scale or --pga-g, not both"),
-    "no file": (f"nowhere.at2 {BLOCK}", "nowhere.at2: cannot be read: No such file or directory"),
-    "no unit": (
-        f"bare.txt {BLOCK}",
-        "bare.txt: the file does not state the unit of its samples; give it, for example --units='m/s²'",
-    ),
-    "unit stated twice": (
-        f"set {BLOCK} --units g",
-        "a.AT2: the file states the unit of its samples, g; do not give --units",
-    ),
-    "unit": (
-        f"bare.txt {BLOCK} --units feet",
-        "--units must be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'; got 'feet'",
-    ),
-    "size": (
-        "set --size -1:2:3 --slenderness-deg 10",
-        "--size must hold two numbers or more in [0.001, 1000], ascending",
-    ),
-    "descending": (
-        "set --size 2:1:3 --slenderness-deg 10",
-        "--size must hold two numbers or more in [0.001, 1000], asc",
-    ),
-    "slenderness": (
-        "set --size 1:2:3 --slenderness-deg 100",
-        "--slenderness-deg must lie in [0.00572958, 89.9544]; got 100",
-    ),
-    "descending slenderness": (
-        "set --size 1:2:3 --slenderness-deg 10:5:3",
-        "--slenderness-deg must hold two numbers or more in [0.00572958, 89.9544], ascending; got 10.0 before 7.5",
-    ),
-    "squat": (
-        "set --size 1:2:3 --slenderness-deg 60",
-        "--slenderness-deg, in rad, must be a critical angle in rad for which",
-    ),
-    "scale 0": (f"set {BLOCK} --scale 0", "--scale must lie in [1e-09, 1e+06]; got 0"),
-    "pga 0": (f"set {BLOCK} --pga-g 0", "--pga-g must lie in [1e-09, 1e+06]; got 0"),
-    "single run": (
-        "example --size 1 --slenderness-deg 10",
-        "--size must be an axis, START:STOP:COUNT, if nothing else varies and there is one record; got 1.0 (rocking record",
-    ),
-    "plot of levels": (
-        f"set {BLOCK} --pga-g 0.1:1:3 --plot a.png",
-        "--plot needs one value of --pga-g; got an axis",
-    ),
-    "plot of a point": (
-        "set --size 1 --slenderness-deg 10 --plot a.png",
-        "--plot needs an axis: give --size or --slend",
-    ),
-    "plot of maps": (
-        "set --size 1:2:3 --slenderness-deg 5:10:7 --plot a.png",
-        "--plot draws one record, or at most 6 values of --slenderness-deg; got 2 records",
-    ),
-    "record as output": (
-        f"table.csv {BLOCK} --csv table.csv",
-        "--csv must not overwrite a record; got 'table.csv'",
-    ),
-    "record of a table as output": (
-        f"list.csv {BLOCK} --csv plain/c.csv",
-        "--csv must not overwrite a record; got 'plain/c.csv'",
-    ),
-    "output in the way": (
-        f"set {BLOCK} --csv a.csv --netcdf a.csv",
-        "--csv and --netcdf must differ; got 'a.csv' for",
-    ),
-    "kind of file": (f"set {BLOCK} --csv a.txt", "--csv must "),
-}
-
-
-@pytest.mark.parametrize("case", REFUSED)
-def test_wrong_input_is_one_line_and_computes_nothing(rocking, tmp_path, case, monkeypatch):
-    if case not in ("size", "descending", "squat", "scale 0", "pga 0", "single run"):
-        monkeypatch.setattr("rocking.survey.rocking_spectrum", None)
-    line, message = REFUSED[case]
-    code, found, out = rocking(f"spectrum {line}")
-    assert (code, out) == (2, "")
-    assert re.search(re.escape(message), found)
-    assert "\n" not in found.strip()

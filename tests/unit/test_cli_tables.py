@@ -3,16 +3,12 @@
 import csv
 import json
 import math
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-import typer
 
 import rocking as rk
-from rocking.cli.app import app
 from rocking.model import PHYSICAL
 
 BLOCK = rk.Block(2.0, 0.5)
@@ -31,12 +27,6 @@ def rows_of(rocking, line):
     assert rocking(f"{line} --csv a.csv")[:2] == (0, "")
     with Path("a.csv").open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
-
-
-def test_all_commands_that_compute_a_table_or_a_series_write_it():
-    commands = typer.main.get_command(app).commands
-    without = {name for name, each in commands.items() if "csv" not in [one.name for one in each.params]}
-    assert without == {"classify", "explore", "paper", "cite"}
 
 
 @pytest.mark.parametrize("command", FAMILIES)
@@ -178,64 +168,3 @@ def test_states_of_attractors_in_a_table_of_basins_have_both_units(rocking):
         normalised = float(row["orbit_velocity [alpha theta_cr]"])
         assert float(row["orbit_velocity [rad/s]"]) == pytest.approx(BLOCK.radians_per_second(normalised))
         assert int(row["transient [cycles]"]) >= 0
-
-
-SHAKEN = "--amplitude 2 --period 1 --restitution 0.8"
-STOOD = "--height 2 --width 0.5"
-LINES = FAMILIES | {
-    "simulate": SHAKEN,
-    "record": f"example {STOOD}",
-    "spectrum": "example --size 1:2:2 --slenderness-deg 10:20:2",
-    "lyapunov": SHAKEN,
-    "modes": "--period 1 --restitution 0.8 -n 1",
-    "basins": f"{SHAKEN} --samples 2",
-    "overturning": "--period 1 --restitution 0.8:0.9:2",
-    "overturning-set": f"example {STOOD} --pga-g 0.1:1",
-    "overturning-spectrum": "--pulse one-sine --amplitude 1:2:2 --frequency 1:2:2 --restitution 0.8",
-    "fragility": f"example {STOOD} --scale 1",
-    "sensitivity": f"example {STOOD} --scale 1:2:2",
-    "orbits": SHAKEN,
-    "classify": SHAKEN,
-}
-ENDINGS = {"plot": ".png", "animate": ".gif", "csv": ".csv", "netcdf": ".nc"}
-
-
-def outputs(command):
-    options = {each.name for each in typer.main.get_command(app).commands[command].params}
-    return {f"--{name}": f"y{ending}" for name, ending in ENDINGS.items() if name in options}
-
-
-def test_all_commands_with_output_files_are_among_the_lines():
-    assert set(LINES) == {name for name in typer.main.get_command(app).commands if outputs(name)}
-
-
-@pytest.mark.parametrize("link", [Path.symlink_to, Path.hardlink_to])
-@pytest.mark.parametrize("command", LINES)
-def test_output_that_is_a_link_to_another_one_or_to_an_input_is_refused(rocking, command, link):
-    other, target = "--study", "in.toml"
-    Path(target).write_text("")
-    for name, path in outputs(command).items():
-        Path(target).touch()
-        link(Path(path), target)
-        code, message, out = rocking(f"{command} {LINES[command]} {other} {target} {name} {path}")
-        told = f"{other} and {name} must differ; got '{path}' for both"
-        if other == "--study":
-            told = f"{name} must not overwrite the study file; got '{path}'"
-        assert (code, message, out) == (2, told, "")
-        Path(path).unlink()
-        other, target = name, path
-
-
-def test_link_to_an_output_that_is_not_there_yet_is_refused_and_so_is_the_file_of_stdout(
-    rocking, monkeypatch
-):
-    Path("y.csv").symlink_to("y.nc")
-    code, message, _ = rocking(f"simulate {SHAKEN} --csv y.csv --netcdf y.nc")
-    assert (code, message) == (2, "--csv and --netcdf must differ; got 'y.nc' for both")
-    line = f"-m rocking simulate {SHAKEN} --cycles 2 --csv out.csv --json".split()
-    with Path("out.csv").open("w") as out:
-        done = subprocess.run(
-            [sys.executable, *line], stdout=out, stderr=subprocess.PIPE, text=True, check=False
-        )
-    told = "rocking: --csv must not overwrite the file to which stdout is redirected; got 'out.csv'\n"
-    assert (done.returncode, done.stderr) == (2, told)

@@ -14,7 +14,7 @@ from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.orbits import fixed_point, floquet, mode_orbit, symmetric_mode
 
 # Its kernels are compiled once, for most of a minute. The tests of the searches run the same code in the fast tests.
-pytestmark = [pytest.mark.xdist_group("kernels_orbit"), pytest.mark.long]
+pytestmark = pytest.mark.long
 
 RANDOM = np.random.default_rng(1991)
 # The sections here hold states, so that no system is needed to evaluate them.

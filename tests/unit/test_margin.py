@@ -144,16 +144,17 @@ def test_without_losses_the_energy_after_the_base_motion_decides():
     assert rk.simulate(rk.System(TURNING, 1.0)).outcome == "overturned"
 
 
-def test_in_a_batch_without_losses_the_energy_decides():
-    assert batch(TURNING, [0.8, 1.0], 1.0)["status"].tolist() == [DONE, OVERTURNED]
+@pytest.mark.parametrize("want_peak", [False, True])
+def test_in_a_batch_without_losses_the_energy_decides(want_peak):
+    assert batch(TURNING, [0.8, 1.0], 1.0, want_peak)["status"].tolist() == [DONE, OVERTURNED]
     assert rk.simulate(rk.System(attrs.evolve(TURNING, scale=0.8), 1.0)).outcome == "bounded"
 
 
-def batch(base, scales, restitution):
+def batch(base, scales, restitution, want_peak=True):
     """Return the ``Ending`` of each scale of a base motion, as a row."""
     rows, runs = np.empty(len(scales), ENDING_ROW), np.zeros(len(scales), RUN_ROW)
     runs["scale"], runs["restitution"] = scales, restitution
-    run_batch(parameters(rk.System(base, restitution)), runs, True, rows, np.zeros(1, np.int64))
+    run_batch(parameters(rk.System(base, restitution)), runs, want_peak, rows, np.zeros(1, np.int64))
     return rows
 
 

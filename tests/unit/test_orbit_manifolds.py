@@ -2,7 +2,6 @@
 
 import math
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -137,7 +136,6 @@ def test_picture_shows_all_halves():
     ax = rk.plot.orbit_manifolds(manifolds)
     assert [line.get_gid() for line in ax.lines] == ["stable"] * 2 + ["unstable"] * 2 + ["saddle"]
     assert manifolds._repr_html_().startswith('<figure><img alt="manifolds of an orbit of period 1')
-    plt.close(ax.figure)
 
 
 def test_legend_over_basins_with_long_names_fits_the_figure():
@@ -152,7 +150,6 @@ def test_legend_over_basins_with_long_names_fits_the_figure():
     assert figure.x0 <= legend.x0
     assert legend.x1 <= figure.x1
     assert ax.get_window_extent().width > 0.7 * figure.width
-    plt.close(ax.figure)
 
 
 def test_halves_that_are_too_short_are_told(case):

@@ -1,6 +1,5 @@
 """Bifurcation sets: closed forms, searches on both sides of each curve, and special points of lines that are not on the grid."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -167,11 +166,9 @@ def test_picture_refuses_axes_of_other_quantities():
     both = [text.get_text() for text in ax.get_legend().get_texts()]
     assert both[: len(keys)] == keys
     assert "symmetry breaking" in both
-    plt.close(ax.figure)
     other = rk.plot.section(rk.simulate(system, cycles=3))
     with pytest.raises(ValueError, match="^ax must show period .* and amplitude"):
         rk.plot.bifurcation_set(found, other)
-    plt.close(other.figure)
 
 
 @pytest.mark.parametrize("block", [None, rk.Block(2.0, 0.5)])
@@ -201,7 +198,6 @@ def check_legend(ax):
     assert legend.x1 <= figure.x1
     assert figure.y0 <= legend.y0
     assert ax.get_window_extent().width > 0.75 * figure.width
-    plt.close(ax.figure)
 
 
 def test_picture_shows_each_curve_and_marks_points_of_codimension_two():
@@ -226,7 +222,6 @@ def test_picture_shows_each_curve_and_marks_points_of_codimension_two():
     assert {marker for marker, *_ in marked} == {"D", "*", "P", "o"}
     ends = sum(end == "grazing" for curve in found.curves for end in curve.ends)
     assert 0 < ends <= sum(point.kind.endswith("-grazing") for point in points)
-    plt.close(ax.figure)
 
 
 def test_dataset_holds_points_of_codimension_two_of_every_curve():

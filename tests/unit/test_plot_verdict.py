@@ -13,7 +13,9 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 import rocking as rk
+from rocking.plot.parts.figures import picture
 from rocking.plot.parts.legend import COLOURS
+from rocking.plot.verdict import untitled
 
 
 def system(amplitude, period, restitution, phase=0.0, braces=None):
@@ -139,6 +141,9 @@ def test_notebook_shows_the_picture_over_the_sentence():
     assert image.format == "PNG"
     assert np.asarray(image.convert("L")).std() > 10
     assert "overturning is certain from τ = 10.3092, after 4 impacts" in html
+    assert base64.b64decode(encoded) == picture(untitled)(verdict)
+    assert untitled(verdict).get_suptitle() == ""  # the sentence is below the picture, and not in it, too
+    assert rk.plot.verdict(verdict).get_suptitle().startswith("overturn")
 
 
 def test_other_than_a_verdict_is_refused_in_one_line():

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from rocking.model import KINDS
 
 RESTITUTION = 0.9
 HALF_SINE = {0.5: 1.10941782324, 1: 1.32239659791, 2: 1.80072393056, 3: 2.29387231344, 5: 3.28914677752}
@@ -96,7 +97,7 @@ def test_least_overturning_accelerations_are_the_printed_ones(kind, height, widt
     assert found == ["at-rest", "overturned"]
 
 
-@pytest.mark.parametrize("kind", rk.model.KINDS)
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("amplitude", [1.7, -2.6])
 def test_motion_is_that_of_its_samples(kind, amplitude):
     """Every form against the engine of straight lines: its samples converge to it with the square of the step."""
@@ -152,7 +153,7 @@ def test_kind_amplitude_and_duration_are_checked():
             rk.Block(2.0, 0.5).system(base)
 
 
-@pytest.mark.parametrize("kind", rk.model.KINDS)
+@pytest.mark.parametrize("kind", KINDS)
 def test_displacement_is_the_acceleration_integrated_twice(kind):
     pulse = rk.Pulse(kind, amplitude=-1.5, duration=0.8)
     times = np.linspace(0.0, 1.3 * pulse.span, 200_001)

@@ -11,6 +11,7 @@ import pytest
 
 import record_files as write
 import rocking as rk
+from rocking.records.example import FILE
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*a PGA of .* is unusual")
 G = 9.80665
@@ -194,7 +195,7 @@ def test_the_example_has_the_peak_of_its_header():
     assert motion.file.header_pga == pytest.approx(1.044078)
     assert motion.file.pga_agrees
     assert motion.file.pga_difference == pytest.approx(2.2e-5)
-    assert Path(rk.records.example.FILE).stat().st_size < 150_000
+    assert Path(FILE).stat().st_size < 150_000
 
 
 def test_a_peak_that_differs_from_the_header_is_reported(make):

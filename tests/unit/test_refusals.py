@@ -3,7 +3,6 @@
 import inspect
 import re
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -82,9 +81,8 @@ def test_what_is_a_pair_or_a_sequence_is_taken_in_any_form(values):
     assert len({str(branch) for branch in branches}) == 1
     assert len(rk.plot.parametric_map(values["map"], curves=iter(["melnikov"])).lines) >= 1
     assert rk.plot.orbit_diagram(values["diagram"], branches=iter(branches)) is not None
-    figure, axes = rk.plot.panels(columns=2, ratios=[2, 1])
+    axes = rk.plot.panels(columns=2, ratios=[2, 1])[1]
     assert len(axes) == 2
-    plt.close(figure)
 
 
 def test_help_shows_no_table_and_no_argument_that_is_no_attribute():

@@ -12,8 +12,6 @@ from rocking.kernels.forcing.harmonic import bracket, enclosure, fast_path, next
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters, make
 from rocking.kernels.forcing.harmonic.solution import NONE_YET, arc_from
 
-pytestmark = pytest.mark.xdist_group("shortcut")  # its kernels are compiled once
-
 SAMPLES = np.linspace(0.0, 1.0, 300)
 
 

@@ -38,10 +38,12 @@ class TooManyEvents(ValueError):
     Examples
     --------
     >>> import rocking as rk
-    >>> system = rk.System(rk.Harmonic(amplitude=0.0, period=6000.0), restitution=1.0, braces=rk.Braces(0.001))
-    >>> rk.simulate(system, rk.State(velocity=1000.0), cycles=1, record="none")
-    Traceback (most recent call last):
-    rocking.model.validation.TooManyEvents: more than 10,000,000 events without an end: ...
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> try:
+    ...     print(rk.simulate(system, cycles=100).outcome)
+    ... except rk.TooManyEvents:
+    ...     print("run fewer cycles")
+    bounded
     """
 
 

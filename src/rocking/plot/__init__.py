@@ -1,6 +1,9 @@
 """Plot functions: each takes a result and an Axes, and returns the Axes.
 
 Units, labels, colours and sizes are set in this package only. The user's matplotlib settings stay unchanged.
+
+Without an Axes, a function makes a figure, which a notebook shows. In a script that has imported `matplotlib.pyplot`, the figure
+belongs to pyplot: `plt.show` shows it, and it stays open until `plt.close`.
 """
 
 from rocking.model import (
@@ -57,7 +60,7 @@ from rocking.plot.overturning_set import overturning_set
 from rocking.plot.overturning_spectrum import overturning_spectrum
 from rocking.plot.overview import overview
 from rocking.plot.parametric_map import parametric_map
-from rocking.plot.parts.notebook import picture
+from rocking.plot.parts.figures import picture
 from rocking.plot.parts.save import save
 from rocking.plot.parts.style import panels, title
 from rocking.plot.phase_portrait import phase_portrait
@@ -70,7 +73,7 @@ from rocking.plot.section import section
 from rocking.plot.spectrum import spectrum
 from rocking.plot.thresholds import thresholds
 from rocking.plot.time_history import time_history
-from rocking.plot.verdict import verdict
+from rocking.plot.verdict import untitled, verdict
 from rocking.plot.zoomable_map import tiles
 from rocking.response import CorrelationDimension, LyapunovSpectrum, SpectralDensity
 
@@ -135,7 +138,7 @@ for kind, draw in (
     (Orbits, orbits),
     (ResponseDiagram, response_diagram),
     (SaddleManifolds, manifolds),
-    (Verdict, verdict),
+    (Verdict, untitled),
     (BasinMap, basins),
     (SafeBasin, safe_basin),
     (OverturningCurve, overturning),

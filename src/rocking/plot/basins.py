@@ -67,10 +67,10 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
     2
     """
     instance("found", found, BasinMap)
-    ax = style.own(ax, height=4.0)
     hues = colours(found.attractors)
     places = found.dataset.attractor
     (turn_across, x_label), (turn_up, y_label) = (parameter(name, block) for name in ("angle", "velocity"))
+    ax = style.own(ax, height=4.0)
     map_ = ListedColormap(hues)
     norm = BoundaryNorm(np.arange(len(hues) + 1) - 0.5, len(hues))
     if places.ndim == 2:

@@ -55,9 +55,9 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
         raise ValueError(
             refusal("found", "vary over one quantity to be drawn", over, "select one value first")
         )
+    level, y_label = parameter("amplitude", block)
     ax = style.own(ax, height=3.3)
     style.block_title(ax, block)
-    level, y_label = parameter("amplitude", block)
     amplitudes = level(data.amplitude.values)
     if data.lowest.ndim == 0:
         ax.plot(

@@ -6,7 +6,8 @@ from matplotlib.figure import Figure
 
 from rocking.model import Block, Harmonic, Outcome, instance
 from rocking.motion import Motion, has_cycles
-from rocking.plot.parts import style
+from rocking.plot.parts import figures, style
+from rocking.plot.parts.axis_units import quantities
 from rocking.plot.parts.sample_times import settled
 from rocking.plot.phase_portrait import phase_portrait
 from rocking.plot.section import section
@@ -51,6 +52,7 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
     2
     """
     instance("motion", motion, Motion)
+    quantities(block)  # refused before there is a figure
     if motion.record != "all":
         figure, (ax,) = style.panels(height=3.0)
         kept = (
@@ -70,7 +72,7 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
 
 def _with_base(motion: Motion, block: Block | None) -> Figure:
     """Plot time history, base acceleration and phase portrait."""
-    figure = Figure(figsize=(style.PAGE, 3.4), layout="constrained")
+    figure = figures.new(style.PAGE, 3.4)
     grid = figure.add_gridspec(2, 2, width_ratios=(3, 2), height_ratios=RATIOS)
     above = figure.add_subplot(grid[0, 0])
     below, right = figure.add_subplot(grid[1, 0], sharex=above), figure.add_subplot(grid[:, 1])

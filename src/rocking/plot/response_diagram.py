@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 
 from rocking.model import Block, instance
 from rocking.orbits import ResponseDiagram
-from rocking.plot.parts import branch_lines, style
+from rocking.plot.parts import branch_lines, figures, style
 from rocking.plot.parts.axis_units import parameter, quantities
 from rocking.plot.parts.legend import LOOKS, Look, looks
 
@@ -67,7 +67,7 @@ def response_diagram(result: ResponseDiagram, block: Block | None = None) -> Fig
         np.array([verdict.kind.code for verdict in result.verdicts]), result.period, result.symmetric
     )
     keys = np.unique(codes)
-    figure = Figure(figsize=(style.COLUMN, HEIGHT + ROW * (-(-len(keys) // 2))), layout="constrained")
+    figure = figures.new(style.COLUMN, HEIGHT + ROW * (-(-len(keys) // 2)))
     bands, exponents, rotation = figure.subplots(3, 1, sharex=True, height_ratios=RATIOS)
     values = across(result.values)
     _bands(bands, values, codes)

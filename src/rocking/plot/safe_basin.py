@@ -44,10 +44,10 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None, block: Block | None = N
     'safe fraction (%)'
     """
     instance("found", found, SafeBasin)
+    level, x_label = parameter("amplitude", block)
     ax = style.own(ax, height=2.9)
     style.block_title(ax, block)
     data = found.dataset
-    level, x_label = parameter("amplitude", block)
     across = level(data.amplitude.values)
     ax.fill_between(
         across, 100 * data.safe_low, 100 * data.safe_high, color=style.MOTION, alpha=0.3, linewidth=0

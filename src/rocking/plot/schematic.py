@@ -56,12 +56,12 @@ def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 
     >>> ax.get_aspect()
     1.0
     """
-    ax = style.own(ax, height=3.6)
     block = STOUT if block is None else instance("block", block, Block)
     height, width = block.height, block.width
     critical = math.atan2(width, height)
     angle = within("lean", lean, -1.0, 1.0) * critical
     tilted = corners(height, width, angle)
+    ax = style.own(ax, height=3.6)
     _base(ax, height, width)
     ax.add_patch(
         Polygon(tilted, facecolor=style.BLOCK, edgecolor=style.INK, linewidth=style.LINE, gid="block")

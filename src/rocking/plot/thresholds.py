@@ -1,10 +1,11 @@
 """Threshold amplitudes over the forcing period."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from rocking.model import Block, reals, refusal, refuse_if
 from rocking.plot.parts import style
@@ -71,14 +72,9 @@ def thresholds(
     if not isinstance(curves, Mapping):
         raise TypeError(refusal("curves", "be a dict of amplitudes by label", curves))
     refuse_if(not 1 <= len(curves) <= len(LINES), "curves", f"hold 1 to {len(LINES)} of them", len(curves))
+    checked = {name: _curve(name, curve, across) for name, curve in curves.items()}
     ax = style.own(ax, height=2.9)
-    for (name, curve), (colour, dashes) in zip(curves.items(), LINES, strict=False):
-        amplitudes, holds = curve if isinstance(curve, tuple) else (curve, np.ones(across.shape, bool))
-        values, holds = np.asarray(reals("curves", amplitudes)), np.asarray(holds, bool)
-        if not across.ndim == values.ndim == holds.ndim == 1 or not len(across) == len(values) == len(holds):
-            raise ValueError(
-                refusal("curves", f"have one amplitude per period, {across.size}", f"{name}: {values.size}")
-            )
+    for (name, (values, holds)), (colour, dashes) in zip(checked.items(), LINES, strict=False):
         up = turn_up(values)
         for part, how, label in ((holds, dashes, name), (~holds, style.DOTTED, None)):
             if part.any():
@@ -91,3 +87,14 @@ def thresholds(
     style.label(ax, x_label, y_label)
     style.key(ax)
     return ax
+
+
+def _curve(name: str, curve: Any, across: NDArray) -> tuple[NDArray, NDArray]:
+    """Return the amplitudes of a curve, and where they are valid; raise if they do not fit the periods."""
+    amplitudes, holds = curve if isinstance(curve, tuple) else (curve, np.ones(across.shape, bool))
+    values, holds = np.asarray(reals("curves", amplitudes)), np.asarray(holds, bool)
+    if not across.ndim == values.ndim == holds.ndim == 1 or not len(across) == len(values) == len(holds):
+        raise ValueError(
+            refusal("curves", f"have one amplitude per period, {across.size}", f"{name}: {values.size}")
+        )
+    return values, holds

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from rocking.model import Block, Outcome, PiecewiseLinear, System
 from rocking.motion import Motion, fallen, has_cycles
-from rocking.plot.parts import style
+from rocking.plot.parts import figures, style
 from rocking.plot.parts.axis_units import Quantities, quantities
 from rocking.plot.parts.sample_times import SAMPLES_PER_PICTURE, trace, window
 
@@ -69,9 +68,10 @@ def time_history(
     time $\tau = \alpha t$
     """
     start, stop = window(motion, cycles)
+    quantities(block)  # refused before there is a figure
     if ax is not None or has_cycles(motion):
         return draw_history(style.own(ax), motion, start, stop, block)
-    figure = Figure(figsize=(style.COLUMN, 3.2), layout="constrained")
+    figure = figures.new(style.COLUMN, 3.2)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=RATIOS)
     return draw_with_base(above, below, motion, block)
 

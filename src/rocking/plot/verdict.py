@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rocking.model import Block, Kind, Orbit, Outcome, State, TooManyEvents, Verdict, instance
 from rocking.motion import simulate
-from rocking.plot.parts import style
+from rocking.plot.parts import figures, style
 from rocking.plot.parts.axis_units import quantities
 from rocking.plot.parts.legend import look_of
 from rocking.plot.parts.sample_times import settled
@@ -82,14 +82,20 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
     3
     """
     instance("verdict", verdict, Verdict)
-    figure = Figure(
-        figsize=(style.PAGE, 5.2), layout=ConstrainedLayoutEngine(rect=(2 * BAND, 0.0, 1.0 - 2 * BAND, 1.0))
-    )
+    quantities(block)  # refused before there is a figure
+    figure = untitled(verdict, block)
+    sentence = textwrap.fill(str(verdict), LETTERS)
+    figure.suptitle(sentence, x=3 * BAND, ha="left", fontsize=style.SMALL, color=style.INK)
+    return figure
+
+
+def untitled(verdict: Verdict, block: Block | None = None) -> Figure:
+    """Return the figure of `verdict` without the text of the verdict, which a notebook writes below it."""
+    layout = ConstrainedLayoutEngine(rect=(2 * BAND, 0.0, 1.0 - 2 * BAND, 1.0))
+    figure = figures.new(style.PAGE, 5.2, layout)
     figure.add_artist(
         Rectangle((0.0, 0.0), BAND, 1.0, color=look_of(verdict).colour, linewidth=0, gid="kind")
     )
-    sentence = textwrap.fill(str(verdict), LETTERS)
-    figure.suptitle(sentence, x=3 * BAND, ha="left", fontsize=style.SMALL, color=style.INK)
     if verdict.kind in ENDS:
         figure.set_figheight(3.4)
         axes = figure.subplot_mosaic([["history", "portrait"]], width_ratios=(3, 2))

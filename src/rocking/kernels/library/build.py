@@ -15,9 +15,11 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -150,12 +152,30 @@ class Compilers:
                 raise
 
 
+@contextmanager
+def seconds_shown(begun: float) -> Iterator[None]:
+    """Print every three seconds how long the build has taken."""
+    ended = threading.Event()
+
+    def show() -> None:
+        while not ended.wait(3.0):
+            print(f"compiling the kernels: {time.perf_counter() - begun:.0f} s", flush=True)
+
+    shown = threading.Thread(target=show, daemon=True)
+    shown.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        shown.join()
+
+
 def build(processors: list[str], target: Path) -> None:
     """Build the libraries of some classes of processors into a folder."""
     begun, sources = time.perf_counter(), hash_texts()
     target.mkdir(parents=True, exist_ok=True)
     print(f"compiling the kernels for {', '.join(processors)}: a minute or two ...", flush=True)
-    with TemporaryDirectory(prefix="rocking-") as folder:
+    with TemporaryDirectory(prefix="rocking-") as folder, seconds_shown(begun):
         try:
             Compilers(Path(folder)).compile(GROUPS, processors)
         except subprocess.CalledProcessError:

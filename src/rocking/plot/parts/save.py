@@ -49,6 +49,10 @@ def save(figure: Figure | Axes, path: str | Path, dpi: float = 200.0) -> Path:
     panels : Make a figure.
     animation : Write an animation.
 
+    Notes
+    -----
+    The figure stays open. A notebook shows it, too.
+
     Examples
     --------
     >>> import rocking as rk, tempfile

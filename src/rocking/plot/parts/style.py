@@ -11,12 +11,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.colors import LinearSegmentedColormap
-from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullLocator, ScalarFormatter
 from numpy.typing import NDArray
 
 from rocking.model import Block, instance, members, refusal, refuse_if, whole, within
 from rocking.plot import palette
+from rocking.plot.parts import figures
 
 COLUMN = 3.5
 PAGE = 7.2
@@ -67,7 +67,7 @@ def own(ax: Axes | None, height: float = 2.4) -> Axes:
     """Return the axes given, or new axes in a figure one column wide and `height` inches high."""
     if ax is not None:
         return instance("ax", ax, Axes)
-    return Figure(figsize=(COLUMN, height), layout="constrained").add_subplot()
+    return figures.new(COLUMN, height).add_subplot()
 
 
 def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[float, ...] | None = None):
@@ -112,7 +112,7 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
         allowed = f"be {columns} positive numbers, one per column"
         ratios = tuple(within("ratios", each, 0.0, 1e6) for each in members("ratios", ratios, allowed))
         refuse_if(len(ratios) != columns or min(ratios) == 0.0, "ratios", allowed, ratios)
-    figure = Figure(figsize=(COLUMN if columns == 1 else PAGE, height * rows), layout="constrained")
+    figure = figures.new(COLUMN if columns == 1 else PAGE, height * rows)
     axes = list(figure.subplots(rows, columns, squeeze=False, width_ratios=ratios).flat)
     for letter, ax in zip("abcdefghijkl", axes, strict=False):
         if len(axes) > 1:
