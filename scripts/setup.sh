@@ -88,9 +88,8 @@ version=$(version_of "$python") || refuse "$python"
 constraints=$(constraints_for "$version") || refuse "$python, version $version"
 
 if ! is_usable; then
-    echo "Setting up .venv with Python $version"
     rm -rf .venv
-    "$python" -m venv .venv
+    scripts/watched.sh "Setting up .venv with Python $version" "$python" -m venv .venv
 fi
 extras=$(all_extras "$@")
 pwd >"$STAMP" # if this is interrupted, the next call goes on with the same .venv

@@ -35,6 +35,7 @@ def test_page_opens_without_complaint_and_asks_no_other_host(visit, width, heigh
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_click_changes_every_picture(visit):
     visitor = visit()
     visitor.open()
@@ -186,6 +187,7 @@ def test_bad_number_is_refused_at_its_field_and_changes_nothing(visit):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_bad_address_opens_with_a_word_on_what_is_wrong(visit):
     visitor = visit()
     visitor.open("?version=1&amplitude=12&period=-3&restitution=0.9")
@@ -199,6 +201,7 @@ NAMED = (
 )
 
 
+@pytest.mark.long
 def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit):
     visitor = visit(390, 844, "dark")
     visitor.open("?version=1&amplitude=14&period=1.35&restitution=0.925")
@@ -345,6 +348,7 @@ def test_critical_angle_selects_the_full_block(visit):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_what_is_taken_along_gives_the_same(visit, tmp_path):
     visitor = visit()
     visitor.open("?version=1&amplitude=6.5&period=0.4&restitution=0.925")
@@ -394,7 +398,9 @@ PAGES = {
 MAPS = ("map", "basin")
 
 
-@pytest.mark.parametrize("page, scheme", [("", "dark"), ("ground-motion", "light")])
+@pytest.mark.parametrize(
+    "page, scheme", [("", "dark"), pytest.param("ground-motion", "light", marks=pytest.mark.long)]
+)
 def test_each_figure_is_saved_in_each_format(visit, tmp_path, page, scheme):
     visitor = visit(scheme=scheme)
     visitor.open(page)
@@ -428,6 +434,7 @@ def test_each_figure_is_saved_in_each_format(visit, tmp_path, page, scheme):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_pointing_at_the_map_tells_kind_period_evidence_and_exponent(visit):
     visitor = visit()
     visitor.open()
@@ -453,6 +460,7 @@ LATE = """async () => {
 
 
 @pytest.mark.parametrize("page", OTHER)
+@pytest.mark.long
 def test_readout_table_and_verdict_belong_to_the_system_shown(visit, page):
     visitor = visit()
     visitor.open(page)
@@ -545,6 +553,7 @@ NAMELESS = """() => {
 }"""
 
 
+@pytest.mark.long
 def test_every_control_is_reached_by_the_keyboard_and_has_a_name(visit):
     visitor = visit()
     visitor.open()
@@ -582,6 +591,7 @@ CONTRAST = """() => {
 
 
 @pytest.mark.parametrize("scheme", [pytest.param("light", marks=pytest.mark.long), "dark"])
+@pytest.mark.long
 def test_text_stands_out_from_its_ground(visit, scheme):
     visitor = visit(1280, 800, scheme)
     visitor.open()

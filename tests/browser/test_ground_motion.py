@@ -125,6 +125,7 @@ def test_slider_scales_the_motion_and_the_map(ground):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_pulse_is_chosen_and_drawn(ground):
     visitor = ground()
     settled(visitor, lambda: visitor.page.select_option("#source", "pulse"))
@@ -191,6 +192,7 @@ def test_file_may_be_dropped_on_the_page(ground):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_file_without_units_asks_for_them(ground):
     visitor = ground(width=360, height=740)
     drop(visitor, "bare.txt", "\n".join(f"{value:.5f}" for value in np.sin(np.arange(300) / 9)).encode())
@@ -206,6 +208,7 @@ def test_file_without_units_asks_for_them(ground):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_file_that_is_no_record_or_too_large_is_refused_in_one_line(ground):
     visitor = ground()
     drop(visitor, "letter.txt", b"some words\nin a letter\n")
@@ -260,6 +263,7 @@ def test_zoom_computes_a_part_of_the_map_again(ground):
     assert "sizes" not in visitor.page.url
 
 
+@pytest.mark.long
 def test_map_is_saved_alike_in_both_formats(ground, tmp_path):
     visitor = ground()
     visitor.finished()

@@ -73,6 +73,7 @@ def test_braced_chaos_has_one_exponent_whatever_the_start():
             assert (apart <= 3.5 * np.hypot(one.errors, other.errors)).all()
 
 
+@pytest.mark.long
 def test_error_of_a_mixing_motion_is_the_spread_over_starts():
     """150 starts: the spread of the estimates is known to 6 %, the printed errors' mean runs high by 0–10 %."""
     angles = np.random.default_rng(7).uniform(-0.5, 0.5, 150)

@@ -107,6 +107,7 @@ def test_a_motion_from_an_unstable_mode_is_periodic_in_a_million_cycles_and_open
     assert rk.classify(mode.system, mode.start, max_cycles=10**6).kind == "periodic"
 
 
+@pytest.mark.long
 def test_none_of_252_motions_above_symmetry_breakings_is_chaotic():
     """Above a symmetry breaking a motion near the symmetric mode comes to one of two mirror images, however slowly."""
     cases = list(beside_breakings())

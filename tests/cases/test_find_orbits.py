@@ -48,6 +48,7 @@ def distances(orbits, orbit):
     ]
 
 
+@pytest.mark.long
 def test_every_attractor_that_random_starts_reach_is_in_the_list(orbits, thin):
     random, reached = np.random.default_rng(1991), {}
     for _ in range(10_000):

@@ -167,7 +167,8 @@ def test_what_cannot_be_followed_is_refused_in_one_line(branch, call, says):
     assert "\n" not in str(refused.value)
 
 
-@pytest.mark.parametrize("name", ["amplitude", pytest.param("brace_angle", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["amplitude", "brace_angle"])
 def test_newtons_method_beyond_a_brace_shortens_the_step(name):
     """The predictor leaves the range between the braces: that was an error of the initial state of a motion."""
     braces = rk.Braces(angle=0.44, restitution=0.87)

@@ -70,6 +70,7 @@ def test_states_with_restitution_over_the_speed_are_those_of_collocation(seed):
     check(*case(seed, with_braces=False, with_table=True))
 
 
+@pytest.mark.long
 def test_block_that_leans_on_its_brace_leaves_when_the_base_pulls_it_off():
     """Chattering at a brace beyond balance ends in contact; from a tilt of 0.8 rad the base must exceed g tan."""
     alpha, brace = 0.5, 1.4

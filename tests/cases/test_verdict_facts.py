@@ -176,6 +176,7 @@ def test_beyond_the_crisis_chaos_stays():
 ATTRACTORS = {None: 4111, 1: 1677, 3: 2518, 5: 1143, 7: 207, 9: 62, 10: 9, 21: 273}
 
 
+@pytest.mark.long
 def test_every_one_of_ten_thousand_starts_is_settled_and_no_attractor_is_missed():
     random = np.random.default_rng(1991)
     angles, velocities, phases = (

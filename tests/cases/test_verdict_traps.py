@@ -253,6 +253,7 @@ def leaves_its_torus(system):
     return overturned or agreement_of_halves(np.array(values)) >= 1e-6
 
 
+@pytest.mark.long
 def test_a_torus_that_touches_an_impact_is_left_by_rounding_alone():
     """The start from rest is such a touch. Averages agree to 15 digits, until doubles pass the base at a depth of some 10⁻¹².
 

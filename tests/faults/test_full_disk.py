@@ -41,6 +41,7 @@ def test_output_that_finds_no_room_is_named_and_leaves_nothing(line, limit, tmp_
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.long
 def test_film_that_is_not_whole_is_refused(tmp_path):
     done = limited(f"{SIMULATE} --plot out.mp4", 9_000, tmp_path)
     assert done.stderr.splitlines()[-1].startswith("rocking: 'out.mp4' cannot be written: ffmpeg has ")

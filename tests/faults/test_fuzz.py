@@ -149,7 +149,7 @@ def run_many(seed, systems):
     return crowded
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_random_systems_run_to_the_end_of_their_budget(seed):
     assert run_many(seed, SYSTEMS // 4) <= MAX_CROWDED
 

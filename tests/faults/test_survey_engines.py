@@ -70,6 +70,7 @@ def test_processes_give_the_same_bytes(survey, tmp_path, whole):
     assert files(tmp_path / "survey.zarr") == whole
 
 
+@pytest.mark.long
 def test_cluster_gives_the_same_bytes_though_a_worker_is_killed(cluster, survey, tmp_path, whole):
     folder = tmp_path / "survey.zarr"
     first = min(worker["pid"] for worker in cluster.run(_pid).values())

@@ -59,7 +59,7 @@ def _report(wrong):
     return f"{len(wrong)} wrong; the first: {wrong[:3]}"
 
 
-@pytest.mark.parametrize("chunk", range(CHUNKS))
+@pytest.mark.parametrize("chunk", [0, *(pytest.param(k, marks=pytest.mark.long) for k in range(1, CHUNKS))])
 @pytest.mark.parametrize("family", FAMILIES)
 def test_no_first_crossing_is_missed_or_misread(family, chunk):
     wrong = _wrong(family, CHUNK, chunk)

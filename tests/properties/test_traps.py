@@ -61,6 +61,7 @@ def test_chatter_is_cut_by_proof_long_before_it_is_slow():
     )
 
 
+@pytest.mark.long
 def test_chatter_cut_short_forgets_nothing_but_the_instant_of_rest():
     """With and without events to keep, the state after a rest is the same, to the last digits."""
     for amplitude in (1.02, 1.1, 1.3):

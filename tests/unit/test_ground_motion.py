@@ -232,6 +232,7 @@ def test_degenerate_motions(samples):
 
 
 @pytest.mark.timeout(60)
+@pytest.mark.long
 def test_ten_million_samples_are_quick():
     a = np.random.default_rng(1).normal(size=10_000_000)
     motion = rk.GroundMotion(a, step=0.01, baseline="mean")

@@ -68,6 +68,7 @@ def test_rest_and_leaning_take_no_instants_from_the_grid():
     assert np.count_nonzero(time > motion.events["time"][-1]) == 1
 
 
+@pytest.mark.long
 def test_long_motion_keeps_its_shape_and_its_file_stays_small(tmp_path):
     fast = rk.System(rk.Harmonic(amplitude=1000.0, period=0.0063), restitution=0.9)
     motion = rk.simulate(fast, cycles=10_000)

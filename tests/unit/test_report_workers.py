@@ -102,6 +102,7 @@ def test_interrupt_ends_the_processes(limit, monkeypatch):
     assert [process.returncode for process in started] == [0, 0]
 
 
+@pytest.mark.long
 def test_interrupted_report_ends_in_one_line_and_leaves_whole_files_only(interrupted, tmp_path):
     code, out, err = interrupted("paper --output made", 8.0)
     assert (code, out) == (130, b"")

@@ -283,6 +283,7 @@ def test_runs_are_added_until_the_intervals_are_as_narrow_as_wanted(capsys):
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.long
 def test_no_runs_are_added_that_do_not_narrow_an_interval():
     """The fractions of this system follow no power law. So the interval is as wide as they scatter, however many runs there are."""
     found = rk.basin_map(

@@ -125,6 +125,7 @@ def test_where_nothing_is_uncertain_there_is_no_exponent():
 
 
 @pytest.mark.parametrize("period, restitution", [(1.0, 0.8), (2.0, 0.925)])
+@pytest.mark.long
 def test_the_boundary_of_overturning_is_smooth_up_to_the_tangency_and_fractal_above(period, restitution):
     tangency = rk.theory.heteroclinic_amplitude(period, restitution)
     starts = np.linspace(-1, 1, 9)

@@ -58,6 +58,7 @@ def test_slow_modes_at_figure_2c_have_the_known_speeds():
     assert speeds == pytest.approx([0.11621, 0.26891], abs=5e-6)
 
 
+@pytest.mark.long
 def test_trace_determinant_and_return_are_those_of_the_engine_wherever_a_mode_is_admissible():
     checked, unstable = 0, 0
     for mode in grid():
