@@ -25,6 +25,7 @@ COUNTS = {
     "grazing_brace": 2_000,
     "coarse": 2_000,
 }
+LONG = ("long", "touching", "grazing_start")
 LONG_CHUNKS = 50
 KINDS = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace", event_kinds.NONE: "none"}
 
@@ -92,7 +93,7 @@ def check(family, count, seed):
 
 
 @pytest.mark.parametrize(
-    "family", [pytest.param(each, marks=pytest.mark.long) if each == "long" else each for each in COUNTS]
+    "family", [pytest.param(each, marks=pytest.mark.long) if each in LONG else each for each in COUNTS]
 )
 def test_no_first_event_is_missed_or_misread(family):
     check(family, COUNTS[family], 0)
