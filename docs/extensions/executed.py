@@ -64,13 +64,15 @@ def run(folder, blocks):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     command, began = [sys.executable, Path(__file__).with_name("run_page.py")], time.monotonic()
+    request = json.dumps(blocks)
     with subprocess.Popen(command, cwd=folder, stdin=PIPE, stdout=PIPE, stderr=PIPE, text=True) as process:
         while True:
             seconds = time.monotonic() - began
             logger.info("running the %d blocks of %s: %.0f s", len(blocks), folder.name, seconds)
             with contextlib.suppress(subprocess.TimeoutExpired):
-                printed, errors = process.communicate(json.dumps(blocks), timeout=3)
+                printed, errors = process.communicate(request, timeout=3)
                 break
+            request = None  # it is sent once
     if process.returncode:
         raise ExtensionError(f"a block of the page {folder.name} fails:\n{errors}")
     return json.loads(printed)
