@@ -37,8 +37,8 @@ def chromium():
         browser.close()
 
 
-def faults(browser, folder):
-    """Yield one sentence for each fault of the pages in a folder, at each width."""
+def faults(browser, folder, note=lambda page: None):
+    """Yield one sentence for each fault of the pages in a folder, at each width. Each page is noted before it is opened."""
     for width, height in SCREENS:
         with browser.new_context(viewport={"width": width, "height": height}) as context:
             page, heard = context.new_page(), []
@@ -47,9 +47,10 @@ def faults(browser, folder):
             page.on("request", lambda request, heard=heard: heard.append(("asks", request.url)))
             for path in sorted(folder.resolve().rglob("*.html")):
                 heard.clear()
+                here = f"{path.relative_to(folder.resolve())} at {width} px"
+                note(here)
                 page.goto(path.as_uri())
                 seen = page.evaluate(LOOK)
-                here = f"{path.relative_to(folder.resolve())} at {width} px"
                 if seen["width"] > width:
                     yield f"{here} is {seen['width']} px wide"
                 yield from (f"{here} lacks the picture {name}" for name in seen["missing"])
@@ -68,9 +69,10 @@ def look(app, failure):
     from sphinx.util.logging import getLogger
 
     if failure is None and app.builder.format == "html" and CHROMIUM.exists():
+        logger = getLogger(__name__)
         with chromium() as browser:
-            for fault in faults(browser, Path(app.outdir)):
-                getLogger(__name__).warning(fault)
+            for fault in faults(browser, Path(app.outdir), lambda page: logger.info("looking at %s", page)):
+                logger.warning(fault)
 
 
 def setup(app):
