@@ -129,9 +129,11 @@ def test_exponent_of_the_undamped_sea_at_a_million_cycles():
         _estimate(_system(*SEA, phase=phase), cycles=1_000_000, transient=0).per_cycle[0][0]
         for phase in np.linspace(0.0, 1e-7, 12)
     ]
-    # single runs are known to fall to .080 after a long stay near an island
-    assert 0.09 < np.mean(values) < 0.12
-    assert 0.07 < min(values) < max(values) < 0.13
+    # Of 48 runs the median is .1059, with a spread of .006 about it. Two lie below .09, at .063 and .080: stays near an island have
+    # no mean, so the least value has no bound.
+    assert abs(np.median(values) - 0.1059) < 4 * 1.25 * 0.006 / math.sqrt(12)
+    assert sum(value < 0.09 for value in values) <= 3
+    assert max(values) < 0.13
 
 
 def test_sum_rule_holds_on_random_bounded_runs():
