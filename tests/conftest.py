@@ -5,11 +5,13 @@ import sys
 import threading
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 from zlib import crc32
 
 import numpy as np
+import psutil
 import pytest
 
 TIMES = Path(__file__).parents[1] / "build" / "test-times.tsv"
@@ -93,6 +95,13 @@ def pytest_runtest_logreport():
 
 def pytest_sessionfinish():
     REPORTED.set()
+
+
+def pytest_keyboard_interrupt():
+    """End the worker processes, and all processes that tests have started: servers and browsers would stay."""
+    for process in psutil.Process().children(recursive=True):
+        with suppress(psutil.NoSuchProcess):
+            process.kill()
 
 
 @pytest.hookimpl(wrapper=True)
