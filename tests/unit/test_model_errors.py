@@ -280,3 +280,21 @@ def test_copy_of_an_error_says_and_carries_the_same(error, carried, again):
     assert type(found) is type(error)
     assert (str(found), found.__notes__) == (str(error), error.__notes__)
     assert {name: getattr(found, name) for name in carried} == carried
+
+
+@pytest.mark.long
+def test_more_events_in_one_cycle_than_can_be_followed_are_refused():
+    """Ten million impacts on two near braces without losses, which take five seconds."""
+    system = rk.System(rk.Harmonic(amplitude=0.0, period=6000.0), restitution=1.0, braces=rk.Braces(0.001))
+    with pytest.raises(TooManyEvents, match="^more than 10,000,000 events without an end: "):
+        rk.simulate(system, rk.State(velocity=1000.0), cycles=1, record="none")
+
+
+def test_more_events_than_can_be_recorded_are_refused(monkeypatch):
+    monkeypatch.setattr("rocking.motion.march_loop.MAX_RECORDED", 50)
+    system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    with pytest.raises(
+        TooManyEvents, match=r"^more than 50 events to record \(run fewer cycles, or use record="
+    ):
+        rk.simulate(system, cycles=100)
+    assert rk.simulate(system, cycles=100, record="none").impacts > 50
