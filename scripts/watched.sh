@@ -11,11 +11,13 @@ trap 'rm -f "$log"' EXIT
 # A process in the background ignores Ctrl-C.
 trap 'kill "$command" 2>/dev/null || true; wait "$command" || true; exit 130' INT TERM
 
+shown=-3
 while kill -0 "$command" 2>/dev/null; do
     line=$(tail -n 1 "$log" | tr '\r' '\n' | tail -n 1 | cut -c 1-70)
     if [ -t 1 ]; then
         printf '\r\033[K%s: %d s  %s' "$what" "$SECONDS" "$line"
-    elif [ $((SECONDS % 3)) -eq 0 ]; then
+    elif [ $((SECONDS - shown)) -ge 3 ]; then
+        shown=$SECONDS
         printf '%s: %d s  %s\n' "$what" "$SECONDS" "$line"
     fi
     sleep 1

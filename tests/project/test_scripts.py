@@ -1,6 +1,7 @@
-"""Debian packages: installed ones are left alone, and those that the user may not install are named."""
+"""Scripts of the Makefile: packages of Debian, and commands that are shown while they run."""
 
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -43,3 +44,16 @@ def test_who_may_not_install_is_told_the_names(debian):
     code, said, asked = debian(dpkg_query="exit 1", id="echo 1000")
     assert (code, asked) == (1, [])
     assert said.startswith("missing on this machine: chromium ")
+
+
+@pytest.mark.parametrize(
+    ("command", "code", "out", "err"),
+    [("echo well", 0, r"Building: done in \d+ s\n", ""), ("echo lost; exit 3", 3, "", "lost\n")],
+)
+def test_command_that_is_shown_keeps_its_exit_code_and_prints_its_output_if_it_fails(command, code, out, err):
+    line = [SCRIPT.with_name("watched.sh"), "Building", "bash", "-c", f"sleep 0.5; {command}"]
+    done = subprocess.run(line, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (code, err)
+    first, _, rest = done.stdout.partition("\n")
+    assert re.fullmatch(r"Building: \d+ s  ", first)
+    assert re.fullmatch(out, rest)
