@@ -69,8 +69,9 @@ bench-against: ## compare the speed with a commit, such as REF=main: ten minutes
 	$(call ready,test)
 	@$(bin)/python -m benchmarks.against "$(REF)" $(if $(seed),--seed $(seed))
 
+# mypy reads the types of all optional packages.
 lint: ## ruff, mypy, import-linter
-	$(call ready,lint)
+	$(call ready,lint $(user))
 	@$(bin)/ruff check --quiet
 	@$(bin)/ruff format --check --quiet || { echo 'not formatted: run `make format`'; exit 1; }
 	@scripts/watched.sh mypy $(bin)/mypy --no-error-summary
