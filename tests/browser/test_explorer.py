@@ -24,7 +24,10 @@ KNOWN = [
 ]
 
 
-@pytest.mark.parametrize("width, height, scheme", [(1280, 800, "light"), (390, 844, "dark")])
+@pytest.mark.parametrize(
+    "width, height, scheme",
+    [(1280, 800, "light"), pytest.param(390, 844, "dark", marks=pytest.mark.long)],
+)
 def test_page_opens_without_complaint_and_asks_no_other_host(visit, width, height, scheme):
     visitor = visit(width, height, scheme)
     visitor.open()
@@ -277,12 +280,11 @@ COVERED = """within => [...document.querySelector(within).querySelectorAll("butt
 }).map(each => each.outerHTML)"""
 CUT = """() => [...document.querySelectorAll("#fields label > *")].filter(each => each.scrollWidth > each.clientWidth)
     .map(each => each.value ?? each.textContent)"""
-SCREENS = pytest.mark.parametrize(
-    "width, height", [pytest.param(1280, 800, marks=pytest.mark.long), (390, 844)]
-)
+SCREENS = pytest.mark.parametrize("width, height", [(1280, 800), (390, 844)])
 
 
 @SCREENS
+@pytest.mark.long
 def test_what_a_block_in_metres_lacks_is_asked_for_without_covering_anything(visit, width, height):
     visitor = visit(width, height)
     visitor.open()
@@ -306,6 +308,7 @@ def test_what_a_block_in_metres_lacks_is_asked_for_without_covering_anything(vis
 
 
 @SCREENS
+@pytest.mark.long
 def test_fields_have_words_beside_their_symbols_and_room_for_what_they_hold(visit, width, height):
     visitor = visit(width, height)
     visitor.open(
@@ -398,9 +401,8 @@ PAGES = {
 MAPS = ("map", "basin")
 
 
-@pytest.mark.parametrize(
-    "page, scheme", [("", "dark"), pytest.param("ground-motion", "light", marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize("page, scheme", [("", "dark"), ("ground-motion", "light")])
+@pytest.mark.long
 def test_each_figure_is_saved_in_each_format(visit, tmp_path, page, scheme):
     visitor = visit(scheme=scheme)
     visitor.open(page)
@@ -497,6 +499,7 @@ def test_readout_table_and_verdict_belong_to_the_system_shown(visit, page):
     visitor.is_content()
 
 
+@pytest.mark.long
 def test_page_asks_for_the_token_and_its_link_holds_none(browser, running, tmp_path):
     """Other pages and files lead to the page, too; the browser then keeps the cookie back at first."""
     here, token = running.link.split("?token=")
@@ -590,7 +593,7 @@ CONTRAST = """() => {
 }"""
 
 
-@pytest.mark.parametrize("scheme", [pytest.param("light", marks=pytest.mark.long), "dark"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.long
 def test_text_stands_out_from_its_ground(visit, scheme):
     visitor = visit(1280, 800, scheme)

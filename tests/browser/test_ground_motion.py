@@ -50,7 +50,9 @@ def block_of(visitor):
     return rk.Block(height, width)
 
 
-@pytest.mark.parametrize("width, height, scheme", [(1280, 800, "light"), (360, 740, "dark")])
+@pytest.mark.parametrize(
+    "width, height, scheme", [(1280, 800, "light"), pytest.param(360, 740, "dark", marks=pytest.mark.long)]
+)
 def test_page_opens_without_complaint_and_asks_no_other_host(ground, width, height, scheme):
     visitor = ground(width=width, height=height, scheme=scheme)
     visitor.finished()
@@ -213,7 +215,7 @@ def test_file_that_is_no_record_or_too_large_is_refused_in_one_line(ground):
     visitor = ground()
     drop(visitor, "letter.txt", b"some words\nin a letter\n")
     visitor.until("document.getElementById('file-refused').textContent !== ''")
-    assert visitor.text("file-refused").startswith("letter.txt: no known text format")
+    assert visitor.text("file-refused").startswith("letter.txt: neither a record nor a table")
     assert visitor.text("kind") == "rocks and stands"
     visitor.page.evaluate("() => give(new File([new Uint8Array(50_000_001)], 'big.at2'))")
     visitor.until("document.getElementById('file-refused').textContent.startsWith('big')")

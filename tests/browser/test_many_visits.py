@@ -128,6 +128,7 @@ STRANGE = [
 ]  # fmt: skip
 
 
+@pytest.mark.long
 def test_messages_of_a_stranger_are_refused_and_the_server_goes_on(running):
     async def talk():
         connection, link = await opened(running)

@@ -10,6 +10,7 @@ def test_report_can_be_read_on_a_desk_and_on_a_phone(browser, reproduced):
     assert list(seen.faults(browser, reproduced.folder)) == []
 
 
+@pytest.mark.long
 def test_sound_page_has_no_faults(browser, tmp_path):
     (tmp_path / "a.html").write_text(
         '<p>a</p><div style="overflow-x: auto"><pre style="width: 2000px">b</pre></div>'
@@ -40,6 +41,7 @@ def test_sound_page_has_no_faults(browser, tmp_path):
         ),
     ],
 )
+@pytest.mark.long
 def test_each_fault_is_said(browser, tmp_path, text, said):
     (tmp_path / "a.html").write_text('<meta name="viewport" content="width=device-width">' + text)
     found = list(seen.faults(browser, tmp_path))

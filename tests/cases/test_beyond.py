@@ -5,6 +5,7 @@ import itertools
 import re
 
 import numpy as np
+import pytest
 
 import rocking as rk
 from rocking.model import percent
@@ -127,6 +128,7 @@ def test_caption_of_figure_11_says_what_lies_beyond_the_first_curve(reproduced):
     assert (stay & alike.values).sum() > 0.95 * stay.sum()
 
 
+@pytest.mark.long
 def test_caption_of_the_bifurcation_curves_tells_what_is_drawn(monkeypatch):
     shown = rk.parametric_map(**cached_surveys.axes(8), restitution=0.925, max_cycles=200)
     monkeypatch.setattr(cached_surveys, "damped", lambda: shown)

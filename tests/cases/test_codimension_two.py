@@ -37,7 +37,10 @@ def curves_of(system, period, kind, bounds, impacts, plane):
     return [rk.bifurcation_curve(special, *PLANE, plane) for special in found.values()]
 
 
-@pytest.fixture(scope="module", params=CASES)
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(each, marks=() if each == "damped" else pytest.mark.long) for each in CASES],
+)
 def case(request):
     system, *rest = CASES[request.param]
     curves = curves_of(system, *rest)

@@ -57,6 +57,7 @@ def axes_of(count):
     return [cached_surveys.axes(count)[name] for name in ("amplitude", "period")]
 
 
+@pytest.mark.long
 def test_points_of_figure_11_are_what_brute_force_finds(thin):
     axes = axes_of(100)
     check(axes, thin(range(axes[0].size * axes[1].size), 300, seed=11), 1_000)

@@ -75,7 +75,7 @@ def check(seed, end=3.0):
 
 
 @pytest.mark.parametrize(
-    "seed", [pytest.param(k, marks=pytest.mark.long) if k in (0, 2, 3, 6) else k for k in range(12)]
+    "seed", [pytest.param(k, marks=pytest.mark.long) if k not in (1, 7, 9) else k for k in range(12)]
 )
 def test_states_of_random_blocks_are_those_of_collocation(seed):
     check(seed)

@@ -24,6 +24,7 @@ def branch():
     return branch_of(0.1)
 
 
+@pytest.mark.long
 def test_special_points_reach_those_of_the_slender_block_at_second_order():
     """Symmetry breaking, then period doubling: the distance is proportional to θcr²."""
     exact = branch_of(None)
@@ -68,6 +69,7 @@ def test_period_doubles_where_the_verdicts_say_so():
         assert rk.classify(system).period == period
 
 
+@pytest.mark.long
 def test_a_fold_joins_a_stable_and_an_unstable_orbit():
     """Unstable symmetric orbits below, of the slender block, turn at the amplitude at which the mode begins to exist."""
     breaks = rk.theory.symmetry_breaking_amplitude(1.0, 0.9, 1)

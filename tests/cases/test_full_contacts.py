@@ -57,7 +57,7 @@ def check(system, exact, end=3.0):
 
 
 @pytest.mark.parametrize(
-    "seed", [0, 1, 2, 3, 5, 6, *(pytest.param(k, marks=pytest.mark.long) for k in (7, 8)), 9]
+    "seed", [0, 2, 9, *(pytest.param(k, marks=pytest.mark.long) for k in (1, 3, 5, 6, 7, 8))]
 )
 def test_states_between_braces_are_those_of_collocation(seed):
     motion, _, hits = check(*case(seed, with_braces=True, with_table=False))
@@ -65,7 +65,9 @@ def test_states_between_braces_are_those_of_collocation(seed):
     assert motion.brace_hits > 0
 
 
-@pytest.mark.parametrize("seed", range(20, 26))
+@pytest.mark.parametrize(
+    "seed", [20, 24, *(pytest.param(k, marks=pytest.mark.long) for k in (21, 22, 23, 25))]
+)
 def test_states_with_restitution_over_the_speed_are_those_of_collocation(seed):
     check(*case(seed, with_braces=False, with_table=True))
 

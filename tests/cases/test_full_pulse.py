@@ -95,8 +95,8 @@ def name_of(case):
 
 
 def sampled(cases):
-    """Mark all cases but every third one as long: each takes seconds in many digits."""
-    return [pytest.param(case, marks=[pytest.mark.long] if k % 3 else []) for k, case in enumerate(cases)]
+    """Mark all cases but every fifth one as long: each takes seconds in many digits."""
+    return [pytest.param(case, marks=[pytest.mark.long] if k % 5 else []) for k, case in enumerate(cases)]
 
 
 def errors(case, motion, time):

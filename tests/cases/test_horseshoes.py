@@ -90,6 +90,7 @@ def test_two_words_between_braces_and_their_entropy():
     assert first + second >= 1.0
 
 
+@pytest.mark.long
 def test_two_words_of_a_chaotic_attractor_whose_manifolds_prove_nothing():
     system = system_of(10.103037, 1.721328, 0.8)
     assert not rk.horseshoe(system).proved

@@ -124,6 +124,7 @@ def test_the_orbit_that_persists_exists_on_both_sides(crossed):
     assert checked
 
 
+@pytest.mark.long
 def test_a_search_finds_no_orbit_beyond_a_grazing_where_two_meet(crossed):
     checked = 0
     for branch, special, other in crossed:

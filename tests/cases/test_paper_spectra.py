@@ -158,6 +158,7 @@ def test_figure_7_has_three_points_three_curves_and_a_sea():
     assert boxes(points[2], 200) / boxes(points[2], 50) > 7
 
 
+@pytest.mark.long
 def test_figure_8_names_the_lines_that_the_page_shows():
     names = [{text.get_text() for text in ax.texts} for ax in figure08.draw().axes]
     assert names[0] == {"$f/3$", "$f$", "$5f/3$", "$7f/3$", "$3f$"}

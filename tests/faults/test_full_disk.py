@@ -28,8 +28,9 @@ def limited(line, limit, folder):
 
 @pytest.mark.parametrize(
     "line, limit",
-    [*((f"{SIMULATE} --plot out.{suffix}", 2_000) for suffix in ("png", "gif")),
-     (f"{SIMULATE} --csv out.csv", 9_000), (f"{SIMULATE} --netcdf out.nc", 9_000), (f"{MAP} --tiles out", 300)],
+    [*(pytest.param(f"{SIMULATE} --plot out.{suffix}", 2_000, marks=pytest.mark.long) for suffix in ("png", "gif")),
+     (f"{SIMULATE} --csv out.csv", 9_000), pytest.param(f"{SIMULATE} --netcdf out.nc", 9_000, marks=pytest.mark.long),
+     (f"{MAP} --tiles out", 300)],
 )  # fmt: skip
 def test_output_that_finds_no_room_is_named_and_leaves_nothing(line, limit, tmp_path):
     output = line.split()[-1]

@@ -26,7 +26,9 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("delay", [0.3, 0.71, 1.13])
+@pytest.mark.parametrize(
+    "delay", [0.3, *(pytest.param(each, marks=pytest.mark.long) for each in (0.71, 1.13))]
+)
 @pytest.mark.parametrize("run", [MANY_SHORT, ONE_LONG, ONE_CYCLE_OF_MILLIONS])
 def test_interrupted_simulation_raises_keyboard_interrupt(run, delay):
     process = subprocess.Popen(

@@ -89,6 +89,7 @@ def whole(name, tmp_path_factory):
     return folder
 
 
+@pytest.mark.long
 def test_survey_killed_ten_times_is_that_of_an_undisturbed_run_byte_for_byte(name, tmp_path, whole):
     folder = tmp_path / "survey.zarr"
     done = ran(KILLED, name, folder)

@@ -11,8 +11,8 @@ from oracles.crossing import condition, first_events
 from oracles.distance import ROUNDING, Arc, Distance
 from oracles.engine import first_event
 
-CHUNK = 900
-CHUNKS = 3  # × CHUNK × 8 families: 21,600 arcs
+CHUNK = 300
+CHUNKS = 9  # × CHUNK × 8 families: 21,600 arcs
 LONG_CHUNK = 9_000
 LONG_CHUNKS = 14  # 1,008,000 arcs
 ROUNDINGS = 100  # of the terms of w and w', by which a returned time and speed may miss

@@ -17,7 +17,7 @@ from rocking.kernels.forcing.full.crossing import first_zero
 from rocking.kernels.forcing.full.step import LONG, cannot_reach_base, error_bound, state_in, step_from
 from rocking.motion.kernel_parameters import parameters
 
-FEW, MANY = 1_000, 20_000
+FEW, MANY = 400, 20_000
 STEPS = 200
 ROUNDING = 2.0**-53
 
@@ -285,7 +285,10 @@ def test_enclosure_holds_the_motion_by_collocation(linear):
             assert radius < 1e-16
 
 
-@pytest.mark.parametrize("place", [harmonic, pulse, sampled])
+@pytest.mark.parametrize(
+    "place",
+    [harmonic, pytest.param(pulse, marks=pytest.mark.long), pytest.param(sampled, marks=pytest.mark.long)],
+)
 def test_first_zero_of_a_step_is_that_of_the_enclosed_motion(kernels, place):
     check_steps(kernels, place, STEPS, 0)
 

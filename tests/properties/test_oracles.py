@@ -29,7 +29,10 @@ def test_proved_fall_of_a_released_free_block():
     assert float(event.time.rad()) < 1e-40
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize(
+    "family",
+    [pytest.param(each, marks=pytest.mark.long) if each == "near_saddle" else each for each in FAMILIES],
+)
 def test_proof_and_dense_scan_find_the_same_first_event(family):
     for arc in arcs(family, 40, 5):
         events = [event for event in first_events(arc) if event.definite or event.depth < 0]

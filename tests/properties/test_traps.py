@@ -152,10 +152,10 @@ def test_fast_shaking_over_long_flights():
 
 
 def test_overturning_is_proved_where_brute_force_sees_it_and_nowhere_else():
-    """Sixty systems from rest, about half of which overturn: the same outcome after the same impacts."""
+    """Thirty systems from rest, about half of which overturn: the same outcome after the same impacts."""
     rng = np.random.default_rng(4)
     overturned = 0
-    for _ in range(60):
+    for _ in range(30):
         period = round(float(rng.uniform(0.3, 3.0)), 3)
         amplitude = round(float(rng.uniform(0.3, 0.9) * (1 + (2 * math.pi / period) ** 2)), 3)
         case = _case(amplitude, period, float(rng.choice([0.5, 0.8, 0.925])), 15)
@@ -168,4 +168,4 @@ def test_overturning_is_proved_where_brute_force_sees_it_and_nowhere_else():
             overturned += 1
         else:
             assert exact.counts["impact"] >= motion.impacts, case  # it happens after the last cycle requested
-    assert overturned >= 15
+    assert overturned >= 8

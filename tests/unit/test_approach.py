@@ -77,7 +77,7 @@ def tangent_of(matrix):
 def test_no_state_below_the_limit_leaves_its_fixed_point(which):
     """More than a tenth of the states that converge must be accepted, because a limit of zero accepts none."""
     accepted, converging = 0, 0
-    for first, second, jacobian, bend, state in maps(which, 1_500, 17):
+    for first, second, jacobian, bend, state in maps(which, 500, 17):
         curvature = approach.Curvature(True, tangent_of(bend[:, :, 0]), tangent_of(bend[:, :, 1]))
         below = excess(which, curvature, tangent_of(jacobian), first, second, *map(float, state)) <= 1.0
         ends = converges(jacobian, bend, state)

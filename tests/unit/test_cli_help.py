@@ -12,6 +12,7 @@ COMMANDS = list(typer.main.get_command(app).commands)
 FEWER = {"orbits": " --effort 0.05", "basins": " --boundary-runs 100"}
 """Options that make the examples of a command shorter."""
 WITHOUT_EXAMPLES = {"explore", "cite"}
+SLOW = {"record", "paper", "fragility"}
 WITH_BLOCK = {"record", "spectrum", "fragility", "overturning-set", "sensitivity"}
 WITH_SYSTEM = set(COMMANDS) - {"explore", "paper", "cite"} - WITH_BLOCK
 
@@ -71,7 +72,9 @@ def test_options_stand_in_their_groups_with_their_defaults(rocking, command):
         assert others.startswith("  --restitution ")
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize(
+    "command", [pytest.param(each, marks=pytest.mark.long) if each in SLOW else each for each in COMMANDS]
+)
 def test_each_example_can_be_copied_and_runs(rocking, tmp_path, command):
     code, _, told = rocking(f"{command} --help")
     found = examples(told, command)

@@ -61,6 +61,11 @@ def test_json_and_files_hold_the_numbers_of_the_function(rocking, found):
     assert row["kind"] == list(rk.Kind)[int(at.kind)]
 
 
+def test_ends_of_an_axis_may_be_typed_in_any_order(rocking):
+    line = "map --amplitude 1:3:4 --period 1:2:3 --restitution 0.9 --max-cycles 20 --json"
+    assert rocking(line.replace("1:3", "3:1").replace("1:2", "2:1"))[2] == rocking(line)[2]
+
+
 def test_store_is_gone_on_with(rocking, found):
     for _ in range(2):
         assert rocking(f"{LINE} --store map.zarr")[2].endswith("wrote map.zarr\n")

@@ -289,8 +289,8 @@ REFUSED = {
         f"push.csv {SI} --baseline cubic": "--baseline must be one of 'none', 'mean', 'linear', 'quadratic'; got 'cubic'",
         f"push.csv {SI} --scale nan": "--scale must be a finite real number of size up to 1e+06; got nan",
         f"push.csv {SI} --scale 0": "--scale must not be 0; got 0 (omit it for the record as it is)",
-        f"push.csv {SI} --pga-g 0": "--pga-g must not be 0; got 0 (omit it for the record as it is)",
-        f"push.csv {SI} --pga-g=-1": "--pga-g must lie in [0, 100000] g; got -1",
+        f"push.csv {SI} --pga-g 0": "--pga-g must lie in [1e-09, 100000] g; got 0",
+        f"push.csv {SI} --pga-g=-1": "--pga-g must lie in [1e-09, 100000] g; got -1",
         f"push.csv {SI} --inertia-ratio 0.5": "--inertia-ratio must lie in [1, 10]; got 0.5",
         f"push.csv {SI} --restitution 2": "--restitution must lie in [0, 1]; got 2",
         "push.csv --height 2": "missing --width: give --height and --width",
@@ -300,8 +300,6 @@ REFUSED = {
         f"{SPECTRUM} 9 --width 1": "give --slenderness-deg or --width, not both: height and width",
         f"{SPECTRUM} 9 --scale 1 --pga-g 1": "give --scale or --pga-g, not both",
         f"{SPECTRUM} 100": "--slenderness-deg must lie in [0.00572958, 89.9544]; got 100",
-        f"{SPECTRUM} 10:5:3": "--slenderness-deg must hold two numbers or more in [0.00572958, 89.9544], "
-        "ascending; got 10.0 before 7.5",
         f"{SPECTRUM} 60": "--slenderness-deg, in rad, must be a critical angle in rad for which",
         f"{SPECTRUM} 9 --scale 0": "--scale must lie in [1e-09, 1e+06]; got 0",
         f"{SPECTRUM} 9 --pga-g 0": "--pga-g must lie in [1e-09, 1e+06]; got 0",
@@ -338,7 +336,6 @@ REFUSED = {
         f"{MAP} --tiles {Path(__file__).parent}": "--tiles must be new, empty, or hold only an earlier index.html with its files; got "
         f"{str(Path(__file__).parent)!r}, which holds other files",
         f"{MAP} --study nowhere.toml": "--study must name a TOML file; got 'nowhere.toml': No such file or directory",
-        f"{MAP.replace('1:2:2', '2:1:2', 1)}": "--amplitude must hold two numbers or more in [0, 1000], ascending; got 2.0 before 1.0",
         f"{SI} --displacement 0.1 --frequency-hz 1:2:9": "--displacement with an axis of the frequency varies amplitude and frequency: "
         "use --acceleration instead",
     },

@@ -9,6 +9,7 @@ import rocking as rk
 from rocking.kernels.entry_point import EntryPoint
 from rocking.model.optional import EXTRAS
 from rocking.papers.yim_lin_1991 import reproduce
+from rocking.records.channel import TEXTS
 from rocking.survey import to_netcdf
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
@@ -43,7 +44,7 @@ PROOF = "proofs need python-flint"
         ("report", "jinja2", lambda: reproduce("results"), REPORT),
         ("proof", "flint", f"classify {RUN} --prove", PROOF),
         ("proof", "flint", lambda: rk.horseshoe(SYSTEM), PROOF),
-        ("obspy", "obspy", f"record made/a.sac {BLOCK}", "a.sac: no known text format; ObsPy reads more formats"),
+        ("obspy", "obspy", f"record made/a.sac {BLOCK}", f"a.sac: a binary file; {TEXTS}; ObsPy reads more formats"),
     ],
 )  # fmt: skip
 def test_missing_extra_is_named_before_the_computation(

@@ -341,6 +341,7 @@ def coverage(population, sets, sizes, fitted):
         yield size, inside / sets, parts / fits
 
 
+@pytest.mark.long
 def test_intervals_of_fifty_records_cover_the_population():
     """A thinned version of the long test: at a coverage of 95 %, less than 92 % of 300 sets has a probability of 1 %."""
     ((_, inside, parts),) = coverage(300, 300, (50,), 100)

@@ -17,7 +17,10 @@ SYSTEMS = {
 }
 
 
-@pytest.fixture(scope="module", params=SYSTEMS)
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(each, marks=() if each == "braced" else pytest.mark.long) for each in SYSTEMS],
+)
 def case(request):
     system, longest, bounds = SYSTEMS[request.param]
     return system, longest, rk.bifurcation_set(system, longest, grid=8, **bounds)

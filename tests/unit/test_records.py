@@ -367,15 +367,28 @@ def test_errors_of_bytes_in_memory_give_their_name(make):
 
 
 @pytest.mark.parametrize(
-    "content", [b"MZ\0\1\2", b"some words\nin a letter\n", b"\xff\xfe\xfd\n\n", b"1 2 3\n4 5 6\n"]
+    ("content", "doubt"),
+    [
+        (b"MZ\0\1\2", ": a binary file"),
+        (
+            b"\n some words\nin a letter\n",
+            ": neither a record nor a table with a column 'file'; it begins with 'some words'",
+        ),
+        (b"\xff\xfe\xfd\n\n", ": neither a record nor a table with a column 'file'; it begins with 'ÿþý'"),
+        (b"0,00;0,1\n0,01;0,2\n", ", line 1: numbers with a decimal point expected; got '0,00;0,1'"),
+        (
+            b"time NS\n1 2 3\n4 5 6\n",
+            ", line 2: 3 numbers in a line; more than two need a line of titles that begins with the time, such as time,NS,EW",
+        ),
+    ],
 )
-def test_unknown_content_names_the_extra_for_more_formats(make, monkeypatch, content):
+def test_unknown_content_names_what_is_expected_and_the_extra_for_more_formats(
+    make, monkeypatch, content, doubt
+):
     monkeypatch.setitem(sys.modules, "obspy", None)
-    message = refusal_of(make(content))
-    assert (
-        message
-        == "file.x: no known text format; ObsPy reads more formats: run pip install '.[obspy]' in a copy of the repository"
-    )
+    formats = "the formats are PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, and text in columns"
+    more = "ObsPy reads more formats: run pip install '.[obspy]' in a copy of the repository"
+    assert refusal_of(make(content)) == f"file.x{doubt}; {formats}; {more}"
 
 
 def test_channel_must_be_one_of_the_file(make):
@@ -578,7 +591,7 @@ def test_equidistant_times_may_be_rounded(make, times, step):
     [
         (
             ["0 1", "0.1 1", "0.3 1", "0.4 1"],
-            "line 2: the times are not equidistant: 0.1 s where 0.133333 s is expected",
+            "line 3: the times are not equidistant: 0.3 s follows 0.1 s, and most steps are 0.1 s",
         ),
         (["0 1", "0 1", "0 1"], "line 3: the times must increase"),
         (["0.00 1", "0.01 1", "0.01 1", "0.02 1"], "the times are not equidistant"),
@@ -586,11 +599,36 @@ def test_equidistant_times_may_be_rounded(make, times, step):
         (["0 1", "0.1 1", "0.2"], "line 3: 2 numbers expected; got '0.2'"),
         (["0 1", "0.1 1", "nan 1"], "line 3: 2 numbers expected; got 'nan 1'"),
         (["0 1", "1e-99999999999999999999 1", "2 1"], "line 2: 2 numbers expected"),
-        (["0,1;1,0", "0,2;1,1"], "no known text format"),
+        (["0,1;1,0", "0,2;1,1"], "numbers with a decimal point expected"),
+        (["t,vel,disp", "0,1,2", "1,2,3"], "file.x, line 2: no column of acceleration"),
+        (["time (ms),NS,EW", "0,1,2", "1,2,3"], "times in s expected; the header gives 'ms'"),
+        (["time,NS,EW", "0,1,2", "1,2"], "line 3: 3 numbers expected; got '1,2'"),
     ],
 )
 def test_columns_that_are_refused(make, rows, expected):
     assert expected in refusal_of(make(rows), units="g")
+
+
+@pytest.mark.parametrize(
+    ("header", "separator", "units", "sizes"),
+    [
+        (["time,NS,UD,vel,displacement"], ",", "g", [G, G]),
+        (["Town", "t (s); NS (g); UD (cm/s2); v1 (m/s); w (cm)"], ";", None, [G, 0.01]),
+        (["# t [s]  NS [g]  UD [gal]  velocity  w [cm]"], " ", None, [G, 0.01]),
+        (["T,NS,UD,vel,disp", "s,g,cm/s2,cm/s,cm"], "\t", None, [G, 0.01]),
+    ],
+)
+def test_columns_under_titles_are_channels(make, header, separator, units, sizes):
+    path = make(
+        [*header, *(separator.join(row.split()) for row in ("0 1 -2 8 9", "0.02 3 1 7 7", "0.04 0 0 9 9"))]
+    )
+    motions = rk.read_ground_motions(path, units=units)
+    assert [(each.component, each.vertical, each.step) for each in motions] == [
+        ("NS", False, 0.02),
+        ("UD", True, 0.02),
+    ]
+    assert [each.pga for each in motions] == pytest.approx([3 * sizes[0], 2 * sizes[1]])
+    assert rk.read_ground_motion(path, 2, units=units).component == "UD"
 
 
 class Stats(types.SimpleNamespace):
@@ -640,7 +678,7 @@ def test_other_files_are_left_to_obspy(make, monkeypatch):
     motion = rk.read_ground_motion(make(b"\0\1\2\n"), units="m/s²")
     assert (motion.pga, motion.file.format, formats) == (3.0, "SAC", ["MSEED", "SAC"])
     monkeypatch.setitem(sys.modules, "obspy", types.SimpleNamespace(read=None))
-    assert "and none of MSEED, SAC, SACXY," in refusal_of(make(b"\0\1\2\n"))
+    assert "text in columns, MSEED, SAC, SACXY," in refusal_of(make(b"\0\1\2\n"))
 
 
 def test_baseline_is_removed_and_a_wrong_name_is_no_error_of_the_file(make):

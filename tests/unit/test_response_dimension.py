@@ -105,6 +105,7 @@ def test_large_sets_are_counted_by_reference_points_within_their_errors():
     np.testing.assert_allclose(found.sums[sure], expected[sure], rtol=0.1)
 
 
+@pytest.mark.long
 def test_errors_of_slopes_are_the_spread_over_sets():
     """24 squares of random points, 17 radii: the ratio of spread and printed error, as a mean square, is known to 4 %."""
     random = np.random.default_rng(6)
@@ -165,6 +166,7 @@ def test_islands_of_figure_5_are_curves():
     assert found.interval[1] - found.interval[0] < WIDEST
 
 
+@pytest.mark.long
 def test_lossy_chaos_has_no_more_dimension_than_its_exponents_give():
     """A = 10.103037, T = 1.721328, e = .8: a curve and more, and Kaplan–Yorke an upper bound for D₂."""
     found = rk.correlation_dimension(section(10.103037, 1.721328, 0.8, cycles=30_000, transient=1_000))

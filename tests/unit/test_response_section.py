@@ -76,6 +76,7 @@ def test_usual_length_is_a_thousand_cycles_from_rest():
     np.testing.assert_array_equal(rk.impact_section(MODE), rk.impact_section(MODE, rk.State(), 1_000))
 
 
+@pytest.mark.long
 def test_memory_grows_with_the_impacts_kept_only():
     def peak(cycles, transient):
         tracemalloc.start()

@@ -186,7 +186,9 @@ def test_extension_killed_between_its_steps_is_taken_up(copied, monkeypatch, ste
     assert rk.parametric_map(**longer, store=copied).load().equals(rk.parametric_map(**longer))
 
 
-@pytest.mark.parametrize("written", [0, 1, 3, 30, 37, 44, 60])
+@pytest.mark.parametrize(
+    "written", [*(pytest.param(k, marks=pytest.mark.long) for k in (0, 1, 3, 37, 60)), 30, 44]
+)
 def test_extension_that_ends_between_two_files_is_resumed_to_the_same_bytes(
     made, copied, tmp_path, monkeypatch, written
 ):
@@ -315,7 +317,7 @@ def test_incomplete_store_where_nothing_can_be_written_is_refused(locked, left_o
         rk.parametric_map(**ASKED, store="new.zarr")
 
 
-@pytest.mark.parametrize("written", [0, 1, 3, 8, 30])
+@pytest.mark.parametrize("written", [0, *(pytest.param(k, marks=pytest.mark.long) for k in (1, 3, 8)), 30])
 def test_full_disk_while_a_store_is_made_is_said_once(tmp_path, monkeypatch, caplog, plain, written):
     write, left = Files.set_sync, [written]
 

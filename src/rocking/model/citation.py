@@ -45,28 +45,36 @@ SOURCES = """@article{yim-lin-1991,
   annote = {Impact map and dynamics under harmonic forcing.},
 }
 
-@misc{shi-1996,
-  author = {Shi and others},
-  year = {1996},
+@article{shi-1996,
+  author = {Shi, Baoping and Anooshehpoor, Abdolrasool and Zeng, Yuehua and Brune, James N.},
+  title = {Rocking and overturning of precariously balanced rocks by earthquakes},
+  journal = {Bulletin of the Seismological Society of America},
+  volume = {86}, number = {5}, pages = {1364--1371}, year = {1996},
   annote = {Overturning of a block by a half sine.},
 }
 
-@misc{makris-roussos-2000,
-  author = {Makris and Roussos},
-  year = {2000},
+@article{makris-roussos-2000,
+  author = {Makris, Nicos and Roussos, Yiannis},
+  title = {Rocking response of rigid blocks under near-source ground motions},
+  journal = {G{\\'e}otechnique},
+  volume = {50}, number = {3}, pages = {243--262}, year = {2000},
   annote = {Overturning by half sine, one sine and one cosine.},
 }
 
 @article{zhang-makris-2001,
-  author = {Zhang and Makris},
+  author = {Zhang, Jian and Makris, Nicos},
+  title = {Rocking response of free-standing blocks under cycloidal pulses},
   journal = {Journal of Engineering Mechanics},
-  volume = {127}, pages = {473--483}, year = {2001},
+  publisher = {ASCE},
+  volume = {127}, number = {5}, pages = {473--483}, year = {2001},
   annote = {Two modes of overturning under one sine.},
 }
 
-@misc{makris-konstantinidis-2003,
-  author = {Makris and Konstantinidis},
-  year = {2003},
+@article{makris-konstantinidis-2003,
+  author = {Makris, Nicos and Konstantinidis, Dimitrios},
+  title = {The rocking spectrum and the limitations of practical design methodologies},
+  journal = {Earthquake Engineering and Structural Dynamics},
+  volume = {32}, number = {2}, pages = {265--289}, year = {2003},
   annote = {Rocking spectra.},
 }
 

@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+TEXTS = "the formats are PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, and text in columns"
+
 
 class RecordError(ValueError):
     """Record file that cannot be read. The message is one line and names the file and the place.

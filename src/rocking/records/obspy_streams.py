@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rocking.model import missing_extra
-from rocking.records.channel import Channel, RecordError
+from rocking.records.channel import TEXTS, Channel, RecordError
 from rocking.records.content import Content
 
 FORMATS = ("MSEED", "SAC", "SACXY", "KINEMETRICS_EVT", "GSE2")
@@ -21,10 +21,10 @@ def is_stream(source: object) -> bool:
     return hasattr(source, "traces") or (hasattr(source, "stats") and hasattr(source, "data"))
 
 
-def read(content: Content) -> list[Channel]:
-    """Read the traces of a file in one of the formats; `RecordError` if ObsPy is not installed."""
+def read(content: Content, doubt: str) -> list[Channel]:
+    """Read the traces of a file in one of the formats; `RecordError`, with the doubt about its text, if it has none."""
     if message := missing_extra("obspy"):
-        raise RecordError(f"{content.name}: no known text format; {message}")
+        raise RecordError(f"{content.name}{doubt}; {TEXTS}; {message}")
     import obspy
 
     for name in FORMATS:
@@ -35,7 +35,7 @@ def read(content: Content) -> list[Channel]:
         except Exception:  # noqa: BLE001 - readers of other formats fail in any way
             continue
         return channels_of(stream, content.name, name)
-    raise RecordError(f"{content.name}: no known text format, and none of {', '.join(FORMATS)}")
+    raise RecordError(f"{content.name}{doubt}; {TEXTS}, {', '.join(FORMATS)}")
 
 
 def channels_of(source: Any, name: str, form: str) -> list[Channel]:

@@ -60,7 +60,7 @@ def read_ground_motion(
 
     - PEER AT2, COSMOS V1 and V2, CSMIP/CDMG V1 and V2, USC V2, SMC;
     - K-NET and KiK-net ASCII, ESM ASCII, GeoNet V1A and V2A;
-    - text with one column (acceleration) or two (time, acceleration);
+    - text with one column (acceleration), two (time, acceleration), or more under a line of titles such as time,NS,EW,UD;
     - miniSEED, SAC and Kinemetrics files, if ObsPy is installed.
 
     A file has at most 300 MB, and a line of text at most 10,000 characters.
@@ -192,7 +192,10 @@ def _source(source: Any, name: str | None) -> _Source:
     content = Content(source, name)
     text = TextFile(content) if content.is_text else None
     form = next((form for form in FORMATS if text and form.recognises(text)), None)
-    channels = obspy_streams.read(content) if form is None else form.read(text)
+    if text is None or form is None:
+        channels = obspy_streams.read(content, columns.unlike(text) if text else ": a binary file")
+    else:
+        channels = form.read(text)
     return _Source(content.name, content.sha256, channels)
 
 

@@ -22,7 +22,7 @@ from rocking.model import (
     vertical_sentence,
     warn_of_input,
 )
-from rocking.records.channel import RecordError
+from rocking.records.channel import TEXTS, RecordError
 from rocking.records.read import read_ground_motion, read_ground_motions
 from rocking.records.record_table import is_table, rows
 
@@ -31,7 +31,6 @@ LEFT_OUT = ("readme", "license", "licence")
 """Beginnings of names of files that accompany records: they state their source and terms."""
 OTHER_QUANTITIES = (".vt2", ".dt2", "_searchresults.csv")
 """Ends of names, in lower case, of files in downloads of PEER without acceleration: velocity, displacement and the search."""
-FORMATS = "PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, and text with one or two columns"
 
 
 def read_record_set(
@@ -143,7 +142,7 @@ def _folder(path: Path) -> list[Path]:
     files = sorted(each for each in path.iterdir() if not each.name.lower().startswith((".", *LEFT_OUT)))
     others = [each.name for each in files if each.name.lower().endswith(OTHER_QUANTITIES)]
     if len(files) == len(others):
-        raise RecordError(f"{path}: the folder holds no record file; the formats are {FORMATS}")
+        raise RecordError(f"{path}: the folder holds no record file; {TEXTS}")
     if others:
         left_out = f"{counted(len(others), 'file')} without acceleration left out"
         warn_of_input(f"{path}: {left_out}: {listed(others)}")

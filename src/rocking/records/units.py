@@ -44,6 +44,8 @@ TIMES = {"s", "sec", "secs", "second", "seconds"}
 OTHER_TIMES = {"ms", "msec", "min", "minutes", "h", "hours", "us", "µs"}
 SEPARATOR = re.compile(r"[,;\t|]")
 IN_BRACKETS = re.compile(r"[\[(]([^\[\]()]++)[\])]")
+BETWEEN_BLANKS = re.compile(r"[^\s\[(]++(?:\s*+[\[(][^\[\]()]*+[\])])?+|\S")
+WORD = re.compile(r"\S+")
 SPEAKS = re.compile(
     r"(?<![^\W_])(?:acc(?:el(?:erations?)?)?(?![^\W_])|units?(?![^\W_])|a(?=[\s_]*(?:[\[(]|in\b)))",
     re.IGNORECASE,
@@ -116,7 +118,7 @@ def titles(line: str) -> list[str]:
     >>> titles("# time (s); acceleration (m/s²)"), titles("s  g")
     (['s', 'm/s²'], ['s', 'g'])
     """
-    return [(IN_BRACKETS.findall(cell) or [cell])[-1].strip() for cell in _cells(line)]
+    return [(IN_BRACKETS.findall(cell) or [cell])[-1].strip() for cell in _split(line, WORD)]
 
 
 def is_other(text: str) -> bool:
@@ -126,15 +128,29 @@ def is_other(text: str) -> bool:
 
 def is_line_of_units(line: str) -> bool:
     """Return whether a line holds units alone, such as "s,g"."""
-    return all(
-        unit_of(text) or is_other(text) or text.lower() in (*TIMES, *OTHER_TIMES) for text in titles(line)
-    )
+    return are_units(titles(line))
 
 
-def _cells(line: str) -> list[str]:
-    """Return the cells of a header line: between separators or, without one, between blanks."""
+def are_units(texts: Sequence[str]) -> bool:
+    """Return whether all texts are units of acceleration, of time or of other quantities."""
+    return all(unit_of(text) or is_other(text) or text.lower() in (*TIMES, *OTHER_TIMES) for text in texts)
+
+
+def cells(line: str) -> list[str]:
+    """Return the cells of a line of titles: between separators or, without one, between blanks outside brackets.
+
+    Examples
+    --------
+    >>> cells("time (s), NS (g)"), cells("# t [s]  NS [g]")
+    (['time (s)', 'NS (g)'], ['t [s]', 'NS [g]'])
+    """
+    return _split(line, BETWEEN_BLANKS)
+
+
+def _split(line: str, word: re.Pattern[str]) -> list[str]:
     plain = line.strip().lstrip("#%!/").replace('"', "")
-    return [cell.strip() for cell in (SEPARATOR.split(plain) if SEPARATOR.search(plain) else plain.split())]
+    found = SEPARATOR.split(plain) if SEPARATOR.search(plain) else word.findall(plain)
+    return [cell.strip() for cell in found]
 
 
 def given_unit(units: str) -> str:

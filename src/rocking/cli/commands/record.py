@@ -71,7 +71,7 @@ def record(
     """Simulate a block under a recorded ground motion.
 
     The run ends when the block is at rest permanently, or when overturning is certain. Without losses, at the base or at braces,
-    it ends with the record. All is in SI units.
+    it ends with the record. The block, the record and the report are in SI units, the initial state is in units of θcr and α θcr.
     """
     from rocking.cli.output import motion_files
     from rocking.cli.reports import record as report

@@ -61,7 +61,7 @@ HELP = {
     "displacement": "Amplitude of the base displacement, m; replaces --acceleration.",
     "frequency_hz": "Forcing frequency, Hz.",
     "period_s": "Forcing period, s; replaces --frequency-hz.",
-    "restitution": "Coefficient of restitution e. Required with normalised input. Default with SI input: Housner's value.",
+    "restitution": "Coefficient of restitution e.",
     "phase": "Phase φ of the base acceleration, rad.",
     "brace_angle": "Brace angle Θb, in units of θcr. Default: no braces.",
     "brace_restitution": "Coefficient of restitution r at a brace. Default: 1.",
@@ -70,6 +70,7 @@ HELP = {
     "velocity": "Initial angular velocity Θ', in units of α θcr.",
 }
 """Help of the options of a system and an initial state, the same in all commands."""
+NORMALISED_TOO = " Required with normalised input. Default with SI input"
 ZERO = ("phase", *START)
 """Options whose default is 0."""
 
@@ -85,6 +86,9 @@ def with_options(
     shared = []
     for name in names:
         text = HELP[name]
+        if name == "restitution" and "height" in names:
+            normalised = {"period", "critical_angle"} & {*names}
+            text += f"{NORMALISED_TOO if normalised else ' Default'}: Housner's value."
         if name in ZERO and name not in usual:
             text = f"{text} Default: 0."
         kind = Annotated[Number, declare(option(name), text)]
@@ -284,4 +288,5 @@ def require(given: Mapping[str, Any], groups: Iterable[tuple[str, ...]], needs: 
     """Raise YourInput if all options of a group are missing; each group needs one of its options."""
     missing = [option(group[0]) for group in groups if all(given.get(name) is None for name in group)]
     if missing:
-        raise YourInput(f"missing {' and '.join(missing)}: give {needs}")
+        lacks = " and ".join(missing)
+        raise YourInput(f"missing {lacks}" if lacks == needs else f"missing {lacks}: give {needs}")

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from rocking.model import Block, Braces, GroundMotion, State
 
 EXAMPLE = "example"
-MAX_PGA = 1e5
+MIN_PGA, MAX_PGA = 1e-9, 1e5
 ARGUMENTS = options(
     "height",
     "width",
@@ -78,12 +78,11 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
             ground = read_ground_motion(given["file"], **reading)
         except RecordError as error:
             raise YourInput(as_options(str(error))) from error
-    level = "scale" if given["pga_g"] is None else "pga_g"
     with your_input(ARGUMENTS):
-        refuse_if(given[level] == 0, level, "not be 0", given[level], "omit it for the record as it is")
         if given["pga_g"] is not None:
-            ground = ground.scaled(pga=GRAVITY * within("pga_g", given["pga_g"], 0, MAX_PGA, "g"))
+            ground = ground.scaled(pga=GRAVITY * within("pga_g", given["pga_g"], MIN_PGA, MAX_PGA, "g"))
         elif given["scale"] is not None:
+            refuse_if(given["scale"] == 0, "scale", "not be 0", 0, "omit it for the record as it is")
             ground = ground.scaled(given["scale"])
     vertical = vertical_sentence([ground.component]) if ground.vertical else ""
     more = filter(None, (vertical, as_options(ground.drift_doubt)))

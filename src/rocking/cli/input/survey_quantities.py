@@ -48,7 +48,7 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
     first, last = ends
     points = {VARIES.get(name, name): span.points for name, span in varied.items()}
     asked = {
-        name: np.linspace(first[name], last[name], points[name]) if name in points else first[name]
+        name: np.linspace(*sorted((first[name], last[name])), points[name]) if name in points else first[name]
         for name in QUANTITIES
         if name in first
     }
@@ -85,10 +85,10 @@ def require_axes(given: Mapping[str, Any], *names: str) -> None:
 
 
 def values(asked: Any) -> Any:
-    """Return a number or a list unchanged, an axis as its values."""
+    """Return a number or a list unchanged, an axis as its values in ascending order."""
     import numpy as np
 
-    return np.linspace(asked.start, asked.stop, asked.points) if isinstance(asked, Axis) else asked
+    return np.linspace(*sorted((asked.start, asked.stop)), asked.points) if isinstance(asked, Axis) else asked
 
 
 def varying(*names: str) -> dict[str, Check]:
