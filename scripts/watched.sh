@@ -13,7 +13,7 @@ trap 'kill "$command" 2>/dev/null || true; wait "$command" || true; exit 130' IN
 
 shown=-3
 while kill -0 "$command" 2>/dev/null; do
-    line=$(tail -n 1 "$log" | tr '\r' '\n' | tail -n 1 | cut -c 1-70)
+    line=$(tail -n 9 "$log" | tr '\r' '\n' | grep -v uninstall | tail -n 1 | cut -c 1-70 || true)
     if [ -t 1 ]; then
         printf '\r\033[K%s: %d s  %s' "$what" "$SECONDS" "$line"
     elif [ $((SECONDS - shown)) -ge 3 ]; then

@@ -208,6 +208,11 @@ REFUSALS = {
         "",
         f"are missing in .* for this processor, .*; {COMMAND}",
     ),
+    "no library in an installed package": (
+        lambda package: (package.library.unlink(), (package.root / "pyproject.toml").unlink()),
+        "",
+        "are missing in .* for this processor, .*; run pip install --force-reinstall --no-deps . in a copy of the repository",
+    ),
     "other processor": (
         lambda package: package.library.rename(package.compiled / "kernels-x86-64-v9.so"),
         "",

@@ -256,7 +256,7 @@ def test_whole_paper_ends_with_the_page_to_open(rocking, monkeypatch):
         return [folder / "index.html"]
 
     monkeypatch.setattr("rocking.papers.yim_lin_1991.reproduce", nothing)
-    told = ["wrote made/index.html", "3 claims of the paper: confirmed (3); open made/index.html"]
+    told = ["wrote 1 file into made", "3 claims of the paper: confirmed (3); open made/index.html"]
     assert rocking("paper --output made")[2].splitlines() == told
 
 

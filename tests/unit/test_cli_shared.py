@@ -448,7 +448,8 @@ REFUSED = {
     },
     "paper": {
         "99": "FIGURE must be among ",
-        "1 pulses-and-earthquakes": "FIGURE must be among … got 'pulses-and-earthquakes'",
+        "1 pulses-and-earthquakes": "FIGURE must be among … got 'pulses-and-earthquakes' "
+        "(the reports are yim-lin-1991 and pulses-and-earthquakes)",
         "1 --output bare.txt/here": "--output must be a folder that can be written; ",
     },
     "cite": {

@@ -10,6 +10,16 @@ import pytest
 from rocking.model import Bar, progress
 
 
+class Named:
+    """Step with the name of another one."""
+
+    def __init__(self, name):
+        self.name = name
+
+    def __str__(self):
+        return self.name
+
+
 class Clock:
     """Clock that stands until it is moved."""
 
@@ -110,6 +120,18 @@ def test_slow_machine_lowers_the_speed_and_no_step_counts_as_done_before_its_end
         assert bar.state()[0].startswith("50 %, 0:01:40 left")
         clock.now += 40.0
         assert 0.6 < bar.state()[1] < 0.75
+
+
+def test_end_of_a_late_step_does_not_send_the_bar_back_and_equal_names_stand_once(clock):
+    with Bar(100.0, in_seconds=True, shown=False, clock=clock) as bar:
+        bar.begin("claims", 30.0)
+        bar.begin(Named("claims"), 10.0)
+        late = next(step for step in bar.estimate.running if step != "claims")
+        clock.now += 40.0
+        text, before = bar.state()
+        bar.end(late)
+        assert bar.state()[1] >= before > 0.3
+        assert text.endswith("left: claims")
 
 
 def test_part_does_not_stand_near_the_end_if_the_last_points_cost_most(clock):

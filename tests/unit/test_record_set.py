@@ -222,7 +222,7 @@ def test_folder_without_records_is_said(tmp_path):
     saved(tmp_path / "readme.txt", ["Source."])
     with pytest.raises(
         rk.RecordError,
-        match=f"^{re.escape(str(tmp_path))}: the folder holds no record file; the formats are PEER",
+        match=f"^{re.escape(str(tmp_path))}: the folder holds no record file; formats: PEER",
     ):
         rk.read_record_set(tmp_path)
 

@@ -386,7 +386,7 @@ def test_unknown_content_names_what_is_expected_and_the_extra_for_more_formats(
     make, monkeypatch, content, doubt
 ):
     monkeypatch.setitem(sys.modules, "obspy", None)
-    formats = "the formats are PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, and text in columns"
+    formats = "formats: PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, text in columns"
     more = "ObsPy reads more formats: run pip install '.[obspy]' in a copy of the repository"
     assert refusal_of(make(content)) == f"file.x{doubt}; {formats}; {more}"
 

@@ -125,7 +125,7 @@ class Bar:
     ) -> None:
         self.known, self.what, self.unit, self.clock = total is not None, what, unit, clock
         self.estimate = Estimate(total or 0.0, in_seconds=in_seconds)
-        self.text, self.before, self.start = "", 0.0, clock()
+        self.text, self.before, self.reached, self.start = "", 0.0, 0.0, clock()
         self.display = _display(title, steady=in_seconds) if shown and sys.stderr is not None else None
         self.lock, self.over = RLock(), Event()
         self.thread = Thread(target=self._watch, name="progress", daemon=True)
@@ -152,13 +152,13 @@ class Bar:
         with self.lock:
             self.estimate.running.pop("", None)
             self.estimate.begin(step, cost, self.clock())
-            self.text = ", ".join(map(str, self.estimate.running))
+            self.text = ", ".join(dict.fromkeys(map(str, self.estimate.running)))
 
     def end(self, step: object) -> None:
         """End a step."""
         with self.lock:
             self.estimate.end(step, self.estimate.running[step][0], self.clock())
-            self.text = ", ".join(map(str, self.estimate.running))
+            self.text = ", ".join(dict.fromkeys(map(str, self.estimate.running)))
 
     def advance(self, cost: float, *, before: bool = False) -> None:
         """Add the cost of work that is done, if there are no steps; `before`: by an earlier run."""
@@ -181,6 +181,8 @@ class Bar:
             part, known = estimate.part(now), self.before / max(estimate.total, 1e-300)
             if estimate.total - estimate.done <= 1e-9 * estimate.total:
                 part = 1.0
+            if estimate.in_seconds:  # a late step stops the bar, and does not send it back
+                part = self.reached = max(self.reached, part)
             words = [f"{self.what} {int(100.0 * part)} %".lstrip()]
             if part == 1.0:
                 words[0] += f" in {_duration(passed)}"

@@ -17,7 +17,7 @@ EDGE = 2.2
 def bifurcation_set(result: BifurcationSet, ax: Axes | None = None, block: Block | None = None) -> Axes:
     """Plot all curves of a bifurcation set, one colour and dash per type, thinner for longer periods.
 
-    A mark shows each point of codimension two: a dot one at a grazing, such as an end of a curve.
+    A mark shows each point of codimension two. A dot marks such a point at a grazing, such as an end of a curve.
 
     Parameters
     ----------

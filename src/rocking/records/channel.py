@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-TEXTS = "the formats are PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, and text in columns"
+TEXTS = "formats: PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, text in columns"
 
 
 class RecordError(ValueError):

@@ -43,18 +43,24 @@ def paper(
         for known, title in PAPERS.items():
             print(f"{known}  {title}")
         return
-    from rocking.model import check_folder
+    from rocking.model import check_folder, counted
 
     name, *rest = figures if figures and figures[0] in PAPERS else (next(iter(PAPERS)), *(figures or ()))
     folder = Path("results") / name if output is None else output
     with computing({"figures": "FIGURE"}):
         check_folder("--output", folder)
         room = room_of(name)
-        room.PAPER.known(rest)
+        try:
+            room.PAPER.known(rest)
+        except ValueError as error:
+            raise ValueError(f"{error} (the reports are {' and '.join(PAPERS)})") from error
     last: list[str] = []
-    for path in room.reproduce(folder, rest or None, progress=True, summary=last.append):
-        print(f"wrote {path}")
-    if not rest:
+    written = room.reproduce(folder, rest or None, progress=True, summary=last.append)
+    if rest:
+        for path in written:
+            print(f"wrote {path}")
+    else:
+        print(f"wrote {counted(len(written), 'file')} into {folder}")
         last.append(f"open {folder / room.PAGE}")
     if last:
         print("; ".join(last))

@@ -74,7 +74,6 @@ def main() -> None:
     bitcode = marks() if file.name == MARKS else file.read_bytes()
     for processor in processors:
         file.with_name(f"{file.stem}-{processor}.o").write_bytes(emit(bitcode, processor))
-        print(f"optimised {file.stem} for {processor}", flush=True)
 
 
 if __name__ == "__main__":

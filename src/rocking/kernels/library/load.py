@@ -15,6 +15,7 @@ KERNELS = Path(__file__).parents[1]
 FOLDER = KERNELS / "compiled"
 CHECKOUT = KERNELS.parents[2]
 COMMAND = "python -m rocking.kernels"
+INSTALL = "pip install --force-reinstall --no-deps . in a copy of the repository"
 # Symbols of the library: hashes of the sources, as text.
 SOURCES, TEXTS = "rocking_sources", "rocking_texts"
 HASH_DIGITS = 16
@@ -27,6 +28,11 @@ class KernelsUnusable(ImportError):
 def is_checkout() -> bool:
     """Return whether the package lies in a checkout of its sources, which may be edited."""
     return KERNELS.parents[1].name == "src" and (CHECKOUT / "pyproject.toml").exists()
+
+
+def remedy() -> str:
+    """Return what makes the library again."""
+    return f"run {COMMAND if is_checkout() else INSTALL}"
 
 
 def source_files() -> list[Path]:
@@ -92,9 +98,7 @@ def open_library(path: Path) -> ctypes.CDLL:
     KernelsUnusable: if it belongs to a user who is neither this one, nor root, nor the owner of the package, or cannot be opened.
     """
     if path.stat().st_uid not in (os.geteuid(), 0, Path(__file__).stat().st_uid):
-        raise KernelsUnusable(
-            f"{path} belongs to another user than the package; remove it, then run {COMMAND}"
-        )
+        raise KernelsUnusable(f"{path} belongs to another user than the package; remove it, then {remedy()}")
     try:
         return ctypes.CDLL(str(path))
     except OSError as error:
@@ -103,7 +107,7 @@ def open_library(path: Path) -> ctypes.CDLL:
         elif "failed to map segment" in str(error):
             raise  # too little memory
         else:
-            problem = f"{path} cannot be opened: {error}; remove it, then run {COMMAND}"
+            problem = f"{path} cannot be opened: {error}; remove it, then {remedy()}"
     raise KernelsUnusable(problem)
 
 
@@ -127,7 +131,7 @@ def _library() -> ctypes.CDLL:
     path = best_path()
     if path is None:
         raise KernelsUnusable(
-            f"the compiled kernels are missing in {FOLDER} for this processor, {processor_class()}; run {COMMAND}"
+            f"the compiled kernels are missing in {FOLDER} for this processor, {processor_class()}; {remedy()}"
         )
     opened = open_library(path)
     if is_checkout() and not is_current(opened):

@@ -28,10 +28,9 @@ def lower(names: list[str]) -> bytes:
     compiler.stop_before_llvm()
     bind_compiled()
     entries, parts = {}, {}
-    for k, name in enumerate(names):
+    for name in names:
         entries[ENTRY_POINTS[name].symbol] = lowered = ENTRY_POINTS[name].lower()
         lowered.parts(parts)
-        print(f"{k + 1} of {len(names)}: {name}", flush=True)
     module = llvm.parse_assembly("")
     for part in parts:
         own = part.module() if isinstance(part, compiler.KernelLibrary) else part._get_module_for_linking()

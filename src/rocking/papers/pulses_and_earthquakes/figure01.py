@@ -1,4 +1,4 @@
-"""One sine pulse: amplitudes that overturn the slender block over the frequency of the pulse, e = 0.9.
+"""Figure 1: one sine pulse: amplitudes that overturn the slender block over the frequency of the pulse, e = 0.9.
 
 A is the amplitude in units of gθcr, Ω the frequency of the pulse over the frequency parameter of the block. Grey: the
 simulated block overturns, on a grid of 90 × 90 points; light blue: it stands. Dark blue: closed form of mode 2, Zhang & Makris

@@ -1,4 +1,4 @@
-"""Half sine and rectangular pulse: amplitude that overturns a block at rest.
+"""Figure 2: half sine and rectangular pulse: amplitude that overturns a block at rest.
 
 (a) Half sine over its frequency Ω = π/T. The exact condition is that of Shi et al. (1996) and Makris & Roussos (2000),
 Eq. (27). Housner (1963), Eq. (12), gives √(1 + Ω²), and Makris & Roussos, Eq. (28), the line 1 + Ω/2 for Ω < 3. Both

@@ -1,4 +1,4 @@
-"""Rocking spectrum of a recorded motion, scaled to 0.6 g: largest angle over 2π/α.
+"""Figure 3: rocking spectrum of a recorded motion, scaled to 0.6 g: largest angle over 2π/α.
 
 The record is that of San Francisco, 1295 Shafter, in the Loma Prieta earthquake of 1989, which comes with the package.
 Slendernesses θcr of 10, 15 and 20°, with Housner's coefficient of restitution. The largest angle is in units of θcr.

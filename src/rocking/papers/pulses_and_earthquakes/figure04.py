@@ -1,4 +1,4 @@
-"""Scales that overturn a block under a recorded motion: not one threshold, but a fractal set.
+"""Figure 4: scales that overturn a block under a recorded motion: not one threshold, but a fractal set.
 
 R = 1 m, θcr = 0.25, Housner's coefficient of restitution; the record is that of figure 3. (a) Largest angle over
 PGA/(gθcr), 10,001 scales; a bar at the upper edge marks a scale at which the block overturns. (b) Number of switches

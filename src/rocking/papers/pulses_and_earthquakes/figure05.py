@@ -1,9 +1,9 @@
-"""Wrong verdicts of integration in fixed steps, over the number of steps between two samples of the record.
+"""Figure 5: wrong verdicts of integration in fixed steps, over the number of steps between two samples of the record.
 
 Classical Runge–Kutta method of fourth order against the exact motion. The block has R = 1 m and θcr = 0.15. Four
 synthetic motions have samples every 0.02 s, and 150 scales each, PGA/(gθcr) from 1.05 to 4. Only certified verdicts are
 counted. Bars are 95 % intervals. Impacts are placed at the end of a step, as simple programs do, or within it by linear interpolation.
-The end of each run is judged by the exact condition. More steps do not remove the error at this rate: the motion is
+The end of each run is judged by the exact condition. Twenty times as many steps do not remove the error: the motion is
 chaotic, and small errors grow from impact to impact.
 """
 

@@ -10,7 +10,7 @@ import matplotlib.style
 from attrs import frozen
 
 import rocking as rk
-from rocking.model import Bar, check_folder, instance, require_extra
+from rocking.model import Bar, check_folder, counted, instance, require_extra
 from rocking.papers.report import page
 from rocking.papers.report.claim import Chapter
 from rocking.papers.report.workers import Step, carry_out
@@ -126,7 +126,11 @@ def write(
     steps = {name: paper.steps(name, folder) for name in wanted}
     every = [step for name in wanted for step in steps[name]]
     cost = sum(step.cost for step in every) + (paper.page_cost if figures is None else 0.0)
-    title = f"{paper.title}: {len(every)} figures, tables and claims"
+    claims = len(steps.get(CLAIMS, ()))
+    tables = len(paper.tables.keys() & steps)
+    figures_wanted = len(steps) - tables - (CLAIMS in steps)
+    kinds = {"figure": figures_wanted, "table": tables, "claim": claims}
+    title = f"{paper.title}: {', '.join(counted(count, kind) for kind, count in kinds.items() if count)}"
     with Bar(cost, title=title, in_seconds=True, shown=instance("progress", progress, bool)) as bar:
         results = dict(zip(every, carry_out(every, bar), strict=True))
         written: list[Path] = []

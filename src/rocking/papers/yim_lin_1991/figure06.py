@@ -1,7 +1,7 @@
 """Figure 6: chaotic response from rest, A = 2, T = 0.4, e = 1, φ = 0: (a) time history, (b) phase portrait.
 
 (a) shows the first 60 cycles, (b) the first 30. Orange marks are impacts, at which the velocity does not change
-because e = 1. The arrow gives the direction of motion. Nearby trajectories diverge by a factor e in some seven
+because e = 1. The arrow gives the direction of motion. Nearby trajectories diverge by a factor of 2.7 in some seven
 cycles: the cycles shown do not depend on rounding, cycles after about 250 do.
 """
 

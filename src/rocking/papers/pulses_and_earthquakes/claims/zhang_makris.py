@@ -123,11 +123,17 @@ def _end_of_mode_1() -> float:
     )
 
 
-@CHAPTER.claim("End of mode 1")
+@CHAPTER.claim(
+    "End of mode 1",
+    qualified="the printed number comes from numerical integration, and the exact end is lower by less than one unit of its last digit",
+)
 def highest_frequency() -> Finding:
     """Slender block, e = 0.9: mode 1 ends at Ω = 6.59."""
     found = _end_of_mode_1()
-    return Finding(abs(found - 6.59) <= FREQUENCY_DIGIT, f"Ω = {found:.5f}")
+    lower = 6.59 - found
+    return Finding(
+        abs(lower) <= FREQUENCY_DIGIT / 2, f"Ω = {found:.5f}", shown=0.0 <= lower <= FREQUENCY_DIGIT
+    )
 
 
 def _least_lacking(frequency: float) -> float:
@@ -151,7 +157,7 @@ def highest_frequency_full() -> Finding:
     found, lacks = brentq(_least_lacking, 7.4, 7.7), _least_lacking(7.58)
     falls, stands = (thresholds.speed_lacking("one-sine", value, FREQUENCY, E) for value in (3.01, 3.00))
     return Finding(
-        abs(found - 7.58) <= FREQUENCY_DIGIT,
+        abs(found - 7.58) <= FREQUENCY_DIGIT / 2,
         f"slenderness {SLENDERNESS:g}: Ω = {found:.5f}. At Ω = 7.58 the speed after the impact is {100 * lacks:.2f} % too small to "
         f"overturn the block. Slender block, Ω = 5: at A = 3.01, which overturns in the print, it is {100 * falls:.2f} % too small, "
         f"at A = 3.00, which stands, {100 * stands:.2f} %",

@@ -1,10 +1,11 @@
 """Bifurcation curves of orbits up to period 3 over the map of figure 11, e = 0.925.
 
-(a) The map, and all curves that a search on a grid of 12 × 12 points finds above A = 1.3. (b) A part of it. Each curve is
-followed by continuation, independently of the map. Thin lines belong to orbits of longer periods. Marks show
-points of codimension two: a dot one at a grazing. Above the symmetry breaking of period 1 the response from rest is no longer
-symmetric. Many curves leave no trace in the map: there a block that starts from rest reaches another attractor. The lower edge
-of the region of period 3 is no bifurcation. Its orbit stays stable below, but a block from rest no longer reaches it.
+(a) The map, and all curves that a search on a grid of 12 × 12 points finds above A = 1.3. (b) A part of it. Each curve
+is followed by continuation, independently of the map. The line is thinner for period 2, and thinnest for period 3.
+Marks show points of codimension two. A dot marks such a point at a grazing. Above the symmetry breaking of period 1 the
+response from rest is no longer symmetric. Many curves leave no trace in the map: there a block that starts from rest
+reaches another attractor. The lower edge of the region of period 3 is no bifurcation. Its orbit stays stable below, but
+a block from rest no longer reaches it.
 """
 
 from matplotlib.figure import Figure

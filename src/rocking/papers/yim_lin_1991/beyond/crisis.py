@@ -1,9 +1,9 @@
-"""Chaotic transient, and chaos up to the end of the run, e = 0.99, T = 0.33, from rest.
+"""Long chaos, which may be a transient, e = 0.99, T = 0.33, from rest.
 
 Poincaré sections (ψ = 0) of two simulated runs over 2·10⁴ cycles: (a) A = 4.86, (b) A = 4.88. The first 100 cycles
-are omitted. If a run becomes periodic, its later points are orange, and the title gives the period and the cycle. The
-end of a chaotic transient depends on rounding. Another run of the same system, such as the run of `classify`, may
-become periodic in another cycle.
+are omitted. If a run becomes periodic, its later points are orange, and the title gives the period and the cycle. A run
+that does not is either chaos for ever or a transient that lasts longer. The end of a chaotic transient depends on rounding:
+another run of the same system, such as the run of `classify`, may become periodic in another cycle.
 """
 
 import numpy as np
