@@ -19,6 +19,7 @@ print = scripts/debian.sh libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0 |
     site wheel constraints
 
 help:
+	@echo 'usage: make TARGET, with one of these targets:'
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS=$$'\t' read -r name what; do printf 'make %-15s %s\n' "$$name" "$$what"; done
 
 setup: ## make .venv with the pinned versions of all that users need and compile the kernels, or bring both up to date

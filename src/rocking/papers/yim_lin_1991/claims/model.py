@@ -49,7 +49,7 @@ def figure_1() -> Finding:
     )
     return Finding(
         bool(holds),
-        f"H = 2 m, B = 0.5 m: θcr = {angle:.6f} rad; released at 0.999 θcr the block is {stands} in the end, at 1.001 θcr {falls}",
+        f"H = 2 m, B = 0.5 m: θcr = {angle:.6f} rad; released at 0.999 θcr: {stands}, at 1.001 θcr: {falls}",
     )
 
 
