@@ -88,7 +88,10 @@ def values(asked: Any) -> Any:
     """Return a number or a list unchanged, an axis as its values in ascending order."""
     import numpy as np
 
-    return np.linspace(*sorted((asked.start, asked.stop)), asked.points) if isinstance(asked, Axis) else asked
+    if not isinstance(asked, Axis):
+        return asked
+    low, high = sorted((asked.start, asked.stop))
+    return np.linspace(low, high, asked.points)
 
 
 def varying(*names: str) -> dict[str, Check]:
