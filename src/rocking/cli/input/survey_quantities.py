@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from attrs import frozen
 
@@ -14,6 +14,9 @@ from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, number, quantity
 from rocking.cli.option_names import AXIS_FORM, QUANTITIES, SI, YourInput, option
 from rocking.model import Block, instance, quantities, reals, refusal, whole
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 @frozen
@@ -48,7 +51,7 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
     first, last = ends
     points = {VARIES.get(name, name): span.points for name, span in varied.items()}
     asked = {
-        name: np.linspace(*sorted((first[name], last[name])), points[name]) if name in points else first[name]
+        name: ascending(Axis(first[name], last[name], points[name])) if name in points else first[name]
         for name in QUANTITIES
         if name in first
     }
@@ -86,12 +89,15 @@ def require_axes(given: Mapping[str, Any], *names: str) -> None:
 
 def values(asked: Any) -> Any:
     """Return a number or a list unchanged, an axis as its values in ascending order."""
+    return ascending(asked) if isinstance(asked, Axis) else asked
+
+
+def ascending(axis: Axis) -> np.ndarray:
+    """Return the values of an axis in ascending order."""
     import numpy as np
 
-    if not isinstance(asked, Axis):
-        return asked
-    low, high = sorted((asked.start, asked.stop))
-    return np.linspace(low, high, asked.points)
+    low, high = sorted((axis.start, axis.stop))
+    return np.linspace(low, high, axis.points)
 
 
 def varying(*names: str) -> dict[str, Check]:
