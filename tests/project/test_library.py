@@ -289,9 +289,9 @@ def test_build_that_is_interrupted_leaves_no_half_library(package, number):
         assert "compiling" in process.stdout.readline()
         time.sleep(0.5)
         process.send_signal(number)
-        last = process.communicate(timeout=100)[0].splitlines()[-1]
+        told = process.communicate(timeout=100)[0].splitlines()
     if number != signal.SIGKILL:
-        assert last == "the kernels were not compiled: interrupted; the same command tries again"
+        assert told[-1] == "the kernels were not compiled: interrupted; the same command tries again"
     assert list(package.compiled.iterdir()) == []
     assert package.build()[-1].startswith("compiled")
     assert package.run() == RIGHT
