@@ -378,7 +378,7 @@ def test_errors_of_bytes_in_memory_give_their_name(make):
         (b"0,00;0,1\n0,01;0,2\n", ", line 1: numbers with a decimal point expected; got '0,00;0,1'"),
         (
             b"time NS\n1 2 3\n4 5 6\n",
-            ", line 2: 3 numbers in a line; more than two need a line of titles that begins with the time, such as time,NS,EW",
+            ", line 2: 3 numbers in a line; more than two need a line of 3 titles that begins with the time, such as time,NS,EW",
         ),
     ],
 )
@@ -386,9 +386,13 @@ def test_unknown_content_names_what_is_expected_and_the_extra_for_more_formats(
     make, monkeypatch, content, doubt
 ):
     monkeypatch.setitem(sys.modules, "obspy", None)
+    told = refusal_of(make(content))
+    if doubt.startswith(", line"):
+        assert told == f"file.x{doubt}"
+        return
     formats = "formats: PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, text in columns"
     more = "ObsPy reads more formats: run pip install '.[obspy]' in a copy of the repository"
-    assert refusal_of(make(content)) == f"file.x{doubt}; {formats}; {more}"
+    assert told == f"file.x{doubt}; {formats}; {more}"
 
 
 def test_channel_must_be_one_of_the_file(make):
@@ -600,8 +604,15 @@ def test_equidistant_times_may_be_rounded(make, times, step):
         (["0 1", "0.1 1", "nan 1"], "line 3: 2 numbers expected; got 'nan 1'"),
         (["0 1", "1e-99999999999999999999 1", "2 1"], "line 2: 2 numbers expected"),
         (["0,1;1,0", "0,2;1,1"], "numbers with a decimal point expected"),
-        (["t,vel,disp", "0,1,2", "1,2,3"], "file.x, line 2: no column of acceleration"),
-        (["time (ms),NS,EW", "0,1,2", "1,2,3"], "times in s expected; the header gives 'ms'"),
+        (
+            [*(f"{0.02 * k:.4f} 1" for k in range(100)), *(f"{2 + 0.0201 * k:.4f} 1" for k in range(50))],
+            "line 105: the times are not equidistant: 2.0804 s where 2.08 s is expected, at a step of 0.02 s",
+        ),
+        (
+            ["time;NS", "0,00;0,1", "0,02;0,2"],
+            "file.x, line 2: numbers with a decimal point expected; got '0,00;0,1'",
+        ),
+        (["time,NS,EW", "2026-01-01,0,1"], "file.x, line 2: numbers alone expected; got '2026-01-01,0,1'"),
         (["time,NS,EW", "0,1,2", "1,2"], "line 3: 3 numbers expected; got '1,2'"),
     ],
 )
@@ -612,16 +623,18 @@ def test_columns_that_are_refused(make, rows, expected):
 @pytest.mark.parametrize(
     ("header", "separator", "units", "sizes"),
     [
-        (["time,NS,UD,vel,displacement"], ",", "g", [G, G]),
-        (["Town", "t (s); NS (g); UD (cm/s2); v1 (m/s); w (cm)"], ";", None, [G, 0.01]),
-        (["# t [s]  NS [g]  UD [gal]  velocity  w [cm]"], " ", None, [G, 0.01]),
-        (["T,NS,UD,vel,disp", "s,g,cm/s2,cm/s,cm"], "\t", None, [G, 0.01]),
+        (["time,NS,UD"], ",", "g", [G, G]),
+        (["# in units of g", "time,acc_NS,acc_UD"], ",", None, [G, G]),
+        (["Town", "t (s); NS (g); UD (cm/s2)"], ";", None, [G, 0.01]),
+        (["# t [s]  NS [g]  UD [gal]"], " ", None, [G, 0.01]),
+        (["T,NS,UD", "s,g,cm/s2"], "\t", None, [G, 0.01]),
+        (["Time (s),Acc (NS),Acc (UD)", "recorded, on, 3 May"], ",", "g", [G, G]),
+        (["Elapsed time in s,NS_g,UD_gal"], ",", None, [G, 0.01]),
     ],
 )
 def test_columns_under_titles_are_channels(make, header, separator, units, sizes):
-    path = make(
-        [*header, *(separator.join(row.split()) for row in ("0 1 -2 8 9", "0.02 3 1 7 7", "0.04 0 0 9 9"))]
-    )
+    rows = (separator.join(row.split()) for row in ("0 1 -2", "0.02 3 1", "0.04 0 0"))
+    path = make([*header, *(f"{row}," if separator == "," else row for row in rows)])
     motions = rk.read_ground_motions(path, units=units)
     assert [(each.component, each.vertical, each.step) for each in motions] == [
         ("NS", False, 0.02),
@@ -629,6 +642,62 @@ def test_columns_under_titles_are_channels(make, header, separator, units, sizes
     ]
     assert [each.pga for each in motions] == pytest.approx([3 * sizes[0], 2 * sizes[1]])
     assert rk.read_ground_motion(path, 2, units=units).component == "UD"
+
+
+@pytest.mark.parametrize(
+    ("header", "expected"),
+    [
+        (
+            "Time (s),Acc (g),Temperature (C)",
+            "'Temperature (C)' is not known as an acceleration; name directions",
+        ),
+        ("time (s),acc (g),rotation rate (rad/s)", "'rotation rate (rad/s)' is not known as an acceleration"),
+        ("Time,Acc (g),Ground velocity", "'Ground velocity' is not known as an acceleration"),
+        ("time (s),acc NS (milli-g),acc EW (g)", "'acc NS (milli-g)' is not known as an acceleration"),
+        ("time (s),NS (10^-3 g),EW (g)", "'NS (10^-3 g)' is not known as an acceleration"),
+        ("time (s),NS (g),EW (mg)", "'EW (mg)' is not known as an acceleration"),
+        (
+            "time (s),acc NS (m/s2),acc EW",
+            "a unit of acceleration expected in the title 'acc EW', as in others",
+        ),
+        ("time,sample,acc (g)", "'sample' is not known as an acceleration"),
+        ("time,a,v", "'v' is not known as an acceleration"),
+        ("time,NS_mm,EW_mm", "'NS_mm' is not known as an acceleration"),
+        ("time,NS,time", "'time' is not known as an acceleration"),
+        ("T (s),Sa (g),Sd (cm)", "'Sa (g)' is not known as an acceleration"),
+        ("time,acc,rot\ns,m/s2,rad/s", "line 1: 'rot rad/s' is not known as an acceleration"),
+        ("t,NS,EW\ns,g,", "a unit of acceleration expected in the title 'EW', as in others"),
+        ("time_ms,acc,NS", "line 1: times in s expected; the header gives 'time_ms'"),
+        ("t,NS,EW\nms,g,g", "line 1: times in s expected; the header gives 't ms'"),
+        ("NS (g),EW (g),UD (g)", "more than two need a line of 3 titles that begins with the time"),
+    ],
+)
+def test_columns_that_may_be_other_quantities_are_refused(make, header, expected):
+    assert expected in refusal_of(make([*header.split("\n"), "0,1,2", "1,2,3"]))
+
+
+@pytest.mark.parametrize(
+    ("header", "expected"),
+    [
+        (
+            "time,velocity",
+            "acceleration in m/s², cm/s², mm/s², g or gal expected; the header gives 'velocity'",
+        ),
+        ("time_ms,acc_g", "times in s expected; the header gives 'time_ms'"),
+        ("Time (milliseconds),acc (g)", "times in s expected; the header gives 'milliseconds'"),
+    ],
+)
+def test_titles_of_two_columns_that_are_other_quantities_are_refused(make, header, expected):
+    assert expected in refusal_of(make([header, "0,1", "1,2"]), units="g" if "(g)" not in header else None)
+
+
+def test_title_of_two_columns_names_the_vertical(make):
+    assert rk.read_ground_motion(make(["time (s),UD (g)", "0,1", "1,2"])).vertical
+
+
+def test_step_that_is_probably_in_ms_gets_a_warning(make):
+    with pytest.warns(rk.InputWarning, match=r"^file.x: a time step of 10 s is unusual: times are in s$"):
+        rk.read_ground_motion(make(["0 1", "10 2", "20 0"]), units="m/s²")
 
 
 class Stats(types.SimpleNamespace):

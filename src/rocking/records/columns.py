@@ -9,14 +9,13 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.model import counted, shown
-from rocking.records.channel import Channel
+from rocking.records.channel import Channel, RecordError
 from rocking.records.text_file import MAX_SAMPLES, NUMBER, TextFile
 from rocking.records.units import (
     IN_BRACKETS,
     OTHER_TIMES,
     SEPARATOR,
     TIMES,
-    are_units,
     cells,
     header_units,
     is_line_of_units,
@@ -26,11 +25,19 @@ from rocking.records.units import (
     unit_of,
 )
 
-ROW = re.compile(rf"\s*+{NUMBER.pattern}(?:(?:\s*+[,;]\s*+|\s++){NUMBER.pattern})*+\s*+", re.ASCII)
+ROW = re.compile(rf"\s*+{NUMBER.pattern}(?:(?:\s*+[,;]\s*+|\s++){NUMBER.pattern})*+\s*+[,;]?\s*+", re.ASCII)
 COMMENT = re.compile(r"\s*(?:[#%!]|//|$)")
-TIME = re.compile(r"(?:t|times?|s|sec|secs|seconds?)(?![^\W_])", re.IGNORECASE)
-NO_ACCELERATION = re.compile(r"(?:vel|disp)", re.IGNORECASE)
-"""Beginning of the title of a column that is left out."""
+DECIMAL_COMMA = re.compile(r"\s*+[-+]?\d+,\d+\s*+[;\s]\s*+[-+]?\d+,\d", re.ASCII)
+WORD = re.compile(r"[^\W_]+")
+TIME = {"t", "time", "times"}
+ACCELERATION = re.compile(r"acc(?:el(?:erations?)?)?|a", re.IGNORECASE)
+DIRECTION = re.compile(
+    r"ns|sn|ew|we|ud|du|[nsewzxylr]|up|down|dwn|ver(?:t(?:ical)?)?|lon(?:g(?:itudinal)?)?|tra(?:n(?:s(?:verse)?)?)?"
+    r"|a[xyz]|h[12]?|hor(?:iz(?:ontal)?)?[12]?|[ns]?\d{1,3}[ew]?|[behls][hln][enz123]",
+    re.IGNORECASE,
+)
+"""Word that names the direction of a component."""
+OTHER_QUANTITY = re.compile(r"(?:vel|disp)", re.IGNORECASE)
 HEADER_LINES = 100
 MAX_DIGITS = 17
 DRIFT = 1e-2
@@ -40,52 +47,54 @@ DRIFT = 1e-2
 class Title(NamedTuple):
     """Title of a column of acceleration."""
 
-    place: int
-    """Number of the column, counted from 0."""
     name: str
     unit: str | None
 
 
 def recognises(file: TextFile) -> bool:
-    """Return whether the first row after at most `HEADER_LINES` lines of header has one or two numbers, or titles."""
+    """Return whether the text has rows of one or two numbers, or of more under a line of titles."""
     return not unlike(file)
 
 
 def unlike(file: TextFile) -> str:
     """Return what a text without readable columns has instead, with the line; empty for columns."""
+    lines = file.lines[: HEADER_LINES + 1]
     first = _first_row(file)
+    comma = next((index for index, line in enumerate(lines) if DECIMAL_COMMA.match(line)), None)
+    if comma is not None:
+        return f", line {comma + 1}: numbers with a decimal point expected; got {shown(lines[comma].strip())}"
     if first is None:
-        found = next((index for index, line in enumerate(file.lines) if line.strip()), 0)
-        got = shown(file.lines[found].strip())
-        if ";" in got and re.search(r"\d,\d", got):
-            return f", line {found + 1}: numbers with a decimal point expected; got {got}"
-        return f": neither a record nor a table with a column 'file'; it begins with {got}"
-    width = len(_parts(file.lines[first]))
+        row = next((index for index, line in enumerate(lines) if re.match(r"\s*[-+.]?\d", line)), None)
+        if row is not None:
+            return f", line {row + 1}: numbers alone expected; got {shown(lines[row].strip())}"
+        begin = next(line for line in file.lines if line.strip()).strip()
+        return f": neither a record nor a table with a column 'file'; it begins with {shown(begin)}"
+    width = len(_parts(lines[first]))
     if width <= 2 or _heads(file, first, width):
         return ""
-    rule = "more than two need a line of titles that begins with the time, such as time,NS,EW"
+    rule = f"more than two need a line of {width} titles that begins with the time, such as time,NS,EW"
     return f", line {first + 1}: {width} numbers in a line; {rule}"
 
 
 def read(file: TextFile) -> list[Channel]:
     """Read the only channel, or one for each title."""
     first = _first_row(file)
-    if first is None:
-        raise file.error(0, "one or two numbers in a line expected")
+    assert first is not None
     width = len(_parts(file.lines[first]))
     places, rows = _rows(file, first, width)
-    named, mentioned = header_units(file.lines[:first])
     if width <= 2:
         _check_titles(file, first, width)
-        columns = [Title(width - 1, "", None)]
+        titled, header = [Title(_direction(file, first, width), None)], file.lines[:first]
     else:
-        columns = _titles(file, first, width)
+        titled = _titles(file, first, width)
+        header = [line for line in file.lines[:first] if len(cells(line)) != width]
+    named, mentioned = header_units(header)
     step = None if width == 1 else _step(file, places, [row[0] for row in rows])
     found = []
-    for column in columns:
-        samples = file.numbers(places, [row[column.place] for row in rows], "a sample")
-        stated = frozenset([column.unit]) if column.unit else named
-        channel = Channel(samples, only(stated or mentioned), step, "text", component=column.name)
+    for place, (name, unit) in enumerate(titled, width - len(titled)):
+        samples = file.numbers(places, [row[place] for row in rows], "a sample")
+        stated = frozenset([unit]) if unit else named
+        channel = Channel(samples, only(stated or mentioned), step, "text", component=name)
         found.append(channel._replace(named=stated, mentioned=mentioned))
     return found
 
@@ -116,30 +125,65 @@ def _parts(line: str) -> list[str]:
     return [] if ("," in line and ";" in line) or not ROW.fullmatch(line) else NUMBER.findall(line)
 
 
-def _heads(file: TextFile, first: int, width: int) -> list[list[str]]:
-    """Return the cells of the last line of titles that begins with the time, and those of a line of units; none without titles."""
-    lines = [found for line in file.lines[:first] if len(found := cells(line)) == width]
-    units = [[cell.strip("[]() ") for cell in each] for each in lines]
-    heads = [
-        each for each, plain in zip(lines, units, strict=True) if TIME.match(each[0]) and not are_units(plain)
-    ]
-    return [heads[-1], next(filter(are_units, units), heads[-1])] if heads else []
+def _heads(file: TextFile, first: int, width: int) -> tuple[int, list[str], list[str]] | None:
+    """Return the place and the cells of the last line of titles that begins with the time, and those of a line of units after it."""
+    lines = [(k, found) for k, line in enumerate(file.lines[:first]) if len(found := cells(line)) == width]
+    heads = [k for k, (_, found) in enumerate(lines) if TIME & {*map(str.lower, WORD.findall(found[0]))}]
+    if not heads:
+        return None
+    place, head = lines[heads[-1]]
+    below = (
+        found for _, found in lines[heads[-1] + 1 :] if _plain(found[0]).lower() in (*TIMES, *OTHER_TIMES)
+    )
+    return place, head, next(below, [])
 
 
 def _titles(file: TextFile, first: int, width: int) -> list[Title]:
-    """Return the titles of the columns of acceleration."""
-    head, below = _heads(file, first, width)
-    units = [(IN_BRACKETS.findall(cell) or [cell])[-1].strip() for cell in below]
-    found = [
-        Title(place, IN_BRACKETS.sub("", head[place]).strip(), unit_of(units[place]))
-        for place in range(1, width)
-        if not (is_other(units[place]) or NO_ACCELERATION.match(head[place]))
-    ]
-    if not found:
-        raise file.error(first, "no column of acceleration")
-    if units[0].lower() in OTHER_TIMES:
-        raise file.error(first, f"times in s expected; the header gives {shown(units[0])}")
-    return found
+    """Return the titles of all columns but the time; an error names a column that may hold another quantity."""
+    found = _heads(file, first, width)
+    assert found is not None
+    place, head, below = found
+    time = {*map(str.lower, WORD.findall(head[0])), *map(str.lower, WORD.findall(below[0] if below else ""))}
+    if not time <= {*TIME, *TIMES, "in", "elapsed"}:
+        raise file.error(
+            place, f"times in s expected; the header gives {shown(' '.join([head[0], *below[:1]]))}"
+        )
+    titled = [_title(file, place, *each) for each in zip(head[1:], below[1:] or [""] * width, strict=False)]
+    with_unit = sum(each.unit is not None for each in titled)
+    if 0 < with_unit < len(titled):
+        lacks = next(cell for cell, each in zip(head[1:], titled, strict=True) if each.unit is None)
+        raise file.error(place, f"a unit of acceleration expected in the title {shown(lacks)}, as in others")
+    return titled
+
+
+def _title(file: TextFile, place: int, cell: str, below: str) -> Title:
+    """Return a title as the words that name a direction, and its unit of acceleration."""
+    bracket = (IN_BRACKETS.findall(cell) or [""])[-1]
+    words = WORD.findall(cell)
+    unit = unit_of(_plain(below) or bracket)
+    if not below and unit is not None:
+        words = WORD.findall(IN_BRACKETS.sub("", cell))
+    elif not (below or bracket) and len(words) > 1 and unit_of(words[-1]) is not None:
+        unit = unit_of(words.pop())
+    names = [word for word in words if not ACCELERATION.fullmatch(word)]
+    if (_plain(below) and unit is None) or not all(map(DIRECTION.fullmatch, names)):
+        shape = "name directions and units of acceleration, such as time (s),NS (g),EW (g), and remove other columns"
+        raise file.error(
+            place, f"{shown(' '.join(filter(None, (cell, below))))} is not known as an acceleration; {shape}"
+        )
+    return Title(" ".join(names), unit)
+
+
+def _plain(cell: str) -> str:
+    return cell.strip("[]() ")
+
+
+def _direction(file: TextFile, first: int, width: int) -> str:
+    """Return the direction that the title of the second of two columns names; empty if it names none."""
+    found = _heads(file, first, width) if width == 2 else None
+    words = WORD.findall(IN_BRACKETS.sub("", found[1][1])) if found else []
+    names = [word for word in words if not ACCELERATION.fullmatch(word)]
+    return " ".join(names) if all(map(DIRECTION.fullmatch, names)) else ""
 
 
 def _check_titles(file: TextFile, first: int, width: int) -> None:
@@ -151,10 +195,10 @@ def _check_titles(file: TextFile, first: int, width: int) -> None:
             found = titles(line)
             if len(found) != width or not (SEPARATOR.search(line) or is_line_of_units(line)):
                 continue  # words
-        if is_other(found[-1]):
+        if is_other(found[-1]) or OTHER_QUANTITY.match(cells(line)[-1]):
             units = "m/s², cm/s², mm/s², g or gal"
             raise file.error(index, f"acceleration in {units} expected; the header gives {shown(found[-1])}")
-        if width > 1 and found[0].lower() in OTHER_TIMES:
+        if width > 1 and {*OTHER_TIMES} & {found[0].lower(), *map(str.lower, WORD.findall(cells(line)[0]))}:
             raise file.error(index, f"times in s expected; the header gives {shown(found[0])}")
 
 
@@ -167,21 +211,30 @@ def _step(file: TextFile, places: list[int], texts: list[str]) -> float:
     step = float(times[-1] - times[0]) / (len(times) - 1)
     if not step > 0:
         raise file.error(places[-1], "the times must increase")
-    even = times[0] + step * np.arange(len(times))
     tolerance = np.minimum(2 * rounding + DRIFT * step, step / 5)
-    wrong = np.abs(times - even) > tolerance
-    if wrong.any():
-        steps = np.diff(times)
-        most = float(np.median(steps))
-        uneven = np.abs(steps - most) > 2 * tolerance[1:]
-        at = int(np.argmax(uneven if uneven.any() else wrong[1:])) + 1
-        raise file.error(
-            places[at],
-            f"the times are not equidistant: {texts[at]} s follows {texts[at - 1]} s, and most steps are {most:.6g} s",
-        )
+    if (np.abs(times - times[0] - step * np.arange(len(times))) > tolerance).any():
+        raise _uneven(file, places, texts, times, tolerance)
     allowed = float(rounding.max()) / (len(times) - 1)
     shorter = (float(f"{step:.{digits}g}") for digits in range(1, MAX_DIGITS))
     return next((value for value in shorter if abs(value - step) <= allowed), step)
+
+
+def _uneven(
+    file: TextFile, places: list[int], texts: list[str], times: np.ndarray, tolerance: np.ndarray
+) -> RecordError:
+    """Return the error of times that are not equidistant, with the first that differs from most."""
+    steps = np.diff(times)
+    most = float(np.median(steps))
+    rule = "the times are not equidistant"
+    uneven = np.abs(steps - most) > 2 * tolerance[1:]
+    if uneven.any():
+        at = int(np.argmax(uneven)) + 1
+        told = f"{texts[at]} s follows {texts[at - 1]} s, and most steps are {most:.6g} s"
+    else:
+        expected = times[0] + most * np.arange(len(times))
+        at = int(np.argmax(np.abs(times - expected) > tolerance))
+        told = f"{texts[at]} s where {expected[at]:.6g} s is expected, at a step of {most:.6g} s"
+    return file.error(places[at], f"{rule}: {told}")
 
 
 def _rounding(texts: list[str]) -> np.ndarray:

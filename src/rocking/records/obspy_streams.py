@@ -24,7 +24,8 @@ def is_stream(source: object) -> bool:
 def read(content: Content, doubt: str) -> list[Channel]:
     """Read the traces of a file in one of the formats; `RecordError`, with the doubt about its text, if it has none."""
     if message := missing_extra("obspy"):
-        raise RecordError(f"{content.name}{doubt}; {TEXTS}; {message}")
+        more = "" if doubt.startswith(", line") else f"; {TEXTS}; {message}"
+        raise RecordError(f"{content.name}{doubt}{more}")
     import obspy
 
     for name in FORMATS:

@@ -29,6 +29,10 @@ FORMATS: tuple[Any, ...] = (cosmos, smc, esm, geonet, knet, peer, csmip, columns
 """Readers in the order in which they are tried; any text of numbers has columns."""
 
 
+MAX_USUAL_STEP = 1.0
+"""Largest time step without a warning, s."""
+
+
 class _Source(NamedTuple):
     """Channels of a file or of a Stream, with the name and the digest of the file."""
 
@@ -96,7 +100,8 @@ def read_ground_motion(
     -----
     InputWarning
         If the peak of the samples differs from the peak in the header: see `RecordFile.pga_agrees`. Also if the PGA is below 0.01
-        or above 50 m/s²: the unit is probably another. Also if the header names several units, or mentions another unit than `units`.
+        or above 50 m/s², or the step above 1 s: the unit is probably another. Also if the header names several units, or mentions
+        another unit than `units`.
 
     See Also
     --------
@@ -261,6 +266,8 @@ def _motion(source: _Source, number: int, given: _Given) -> tuple[GroundMotion, 
         )
     except ValueError as error:
         raise RecordError(f"{place}: {error}") from error
+    if motion.step > MAX_USUAL_STEP:
+        doubts.append(f"a time step of {motion.step:g} s is unusual: times are in s")
     if doubt := pga_doubt(float(np.abs(samples).max())):
         doubts.append(f"{doubt}, {unit}")
     if file is not None and file.pga_agrees is False:

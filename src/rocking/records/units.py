@@ -41,7 +41,19 @@ OTHER_UNITS = {
 }
 """Units of other quantities, and of acceleration in units that are not read, after `_plain`."""
 TIMES = {"s", "sec", "secs", "second", "seconds"}
-OTHER_TIMES = {"ms", "msec", "min", "minutes", "h", "hours", "us", "µs"}
+OTHER_TIMES = {
+    "ms",
+    "msec",
+    "millisec",
+    "millisecond",
+    "milliseconds",
+    "min",
+    "minutes",
+    "h",
+    "hours",
+    "us",
+    "µs",
+}
 SEPARATOR = re.compile(r"[,;\t|]")
 IN_BRACKETS = re.compile(r"[\[(]([^\[\]()]++)[\])]")
 BETWEEN_BLANKS = re.compile(r"[^\s\[(]++(?:\s*+[\[(][^\[\]()]*+[\])])?+|\S")
@@ -128,12 +140,9 @@ def is_other(text: str) -> bool:
 
 def is_line_of_units(line: str) -> bool:
     """Return whether a line holds units alone, such as "s,g"."""
-    return are_units(titles(line))
-
-
-def are_units(texts: Sequence[str]) -> bool:
-    """Return whether all texts are units of acceleration, of time or of other quantities."""
-    return all(unit_of(text) or is_other(text) or text.lower() in (*TIMES, *OTHER_TIMES) for text in texts)
+    return all(
+        unit_of(text) or is_other(text) or text.lower() in (*TIMES, *OTHER_TIMES) for text in titles(line)
+    )
 
 
 def cells(line: str) -> list[str]:

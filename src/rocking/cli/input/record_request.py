@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 EXAMPLE = "example"
 MIN_PGA, MAX_PGA = 1e-9, 1e5
+OMIT = "omit it for the record as it is"
 ARGUMENTS = options(
     "height",
     "width",
@@ -80,9 +81,11 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
             raise YourInput(as_options(str(error))) from error
     with your_input(ARGUMENTS):
         if given["pga_g"] is not None:
-            ground = ground.scaled(pga=GRAVITY * within("pga_g", given["pga_g"], MIN_PGA, MAX_PGA, "g"))
+            ground = ground.scaled(
+                pga=GRAVITY * within("pga_g", given["pga_g"], MIN_PGA, MAX_PGA, "g", if_below=OMIT)
+            )
         elif given["scale"] is not None:
-            refuse_if(given["scale"] == 0, "scale", "not be 0", 0, "omit it for the record as it is")
+            refuse_if(given["scale"] == 0, "scale", "not be 0", 0, OMIT)
             ground = ground.scaled(given["scale"])
     vertical = vertical_sentence([ground.component]) if ground.vertical else ""
     more = filter(None, (vertical, as_options(ground.drift_doubt)))
