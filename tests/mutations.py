@@ -122,7 +122,9 @@ class Copies:
         code, output = self.pytest(copy, [mutation.test], self.seconds)
         if code is None:
             return False, f"no result within {self.seconds:g} s"
-        return code == TESTS_FAILED, describe(code, output) or "the test passes"
+        reason = describe(code, output) or "the test passes"
+        compiles = "numba.core.errors" not in reason  # else the change was not tested
+        return code == TESTS_FAILED and compiles, reason
 
     def check_unchanged(self, tests):
         """Run tests in an unchanged copy. Returns None if they pass, else the reason in one line."""

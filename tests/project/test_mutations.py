@@ -72,6 +72,7 @@ def test_only_a_test_that_fails_detects_a_mutation(project, tmp_path):
         "3 * x": (True, "assert 9 == 6"),
         "x + x": (False, "the test passes"),
         "2 * * x": (False, "no test ran"),
+        "__import__('numba').njit(lambda y: y.a)(x)": (False, "numba.core.errors.TypingError"),
     }
     for new, (failed, reason) in results.items():
         found = copies.check(mutation(new, "test_double"))

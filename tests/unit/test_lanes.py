@@ -94,7 +94,7 @@ def test_first_impacts_are_those_of_one_block():
 
     Time and speed agree to rounding, 16 ulp of what they are made of; a rounding of u moves them by its ratio to the speed.
     """
-    systems, starts = drawn(1024, 3)
+    systems, starts = drawn(4096, 3)
     found, certain = oracle.first_events(systems, starts)
     compared = 0
     for p, start, ours, sure in zip(systems, starts, found, certain, strict=True):
