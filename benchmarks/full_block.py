@@ -21,7 +21,7 @@ from benchmarks.table import Figure
 from rocking.kernels.march import initial_state
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.progress import Recording
-from rocking.motion.kernel_parameters import parameters
+from rocking.motion.march_loop import parameters
 from tests.oracles.full_block import DIGITS, Block, Cosine, Samples
 
 CYCLES, TURNS = 20, 25

@@ -12,7 +12,7 @@ from rocking.kernels import batch
 from rocking.kernels.classify.results import empty_results
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.forcing.parameters import parameters_of_row
-from rocking.model import Kind
+from rocking.model.verdict import Kind
 
 POINTS, FINER = 100, 200
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)

@@ -19,7 +19,7 @@ from rocking.kernels.deferred import import_all
 from rocking.kernels.library.load import open_library
 from rocking.kernels.march.ending import ENDING_ROW
 from rocking.kernels.march.finite_runs import PULSE_ROW, RUN_ROW, run_batch, run_pulses
-from rocking.motion.kernel_parameters import parameters
+from rocking.motion.march_loop import parameters
 
 MAX_CALLS = 40
 """Calls kept of each entry point."""

@@ -27,7 +27,7 @@ from rocking.kernels.forcing.parameters import parameters_of_row
 from rocking.kernels.march import initial_state, march
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.numerics.replace_fields import replacing
-from rocking.model import Criterion
+from rocking.model.verdict import Criterion
 
 POINTS = 1000
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)

@@ -27,7 +27,7 @@ class Reproduced(NamedTuple):
 
 @pytest.fixture(scope="session")
 def reproduced(tmp_path_factory):
-    from rocking.papers.yim_lin_1991 import reproduce
+    from rocking.papers.yim_lin_1991.reproduce import reproduce
 
     folder = tmp_path_factory.mktemp("figures") / "made" / "here"
     return Reproduced(folder, reproduce(folder))

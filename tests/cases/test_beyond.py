@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model import percent
+from rocking.model.text import percent
 from rocking.papers.yim_lin_1991 import cached_surveys, figure11
 from rocking.papers.yim_lin_1991.beyond import bifurcations, chaos, coexistence, crisis, zoom
 

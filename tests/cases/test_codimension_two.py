@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.motion import monodromy
+from rocking.motion.march_loop import monodromy
 
 PLANE = "period", "amplitude"
 DAMPED = rk.System(rk.Harmonic(2.43, period=2.46), 0.18)

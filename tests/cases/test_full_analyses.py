@@ -8,7 +8,7 @@ import pytest
 
 import rocking as rk
 from oracles.full_block import DIGITS, Block, Cosine
-from rocking.motion import monodromy
+from rocking.motion.march_loop import monodromy
 
 PERIODIC = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925, critical_angle=0.25)
 CHAOTIC = rk.System(rk.Harmonic(amplitude=10.188, period=1.7105), 0.8, critical_angle=0.1)

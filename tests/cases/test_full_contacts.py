@@ -8,7 +8,7 @@ import pytest
 
 import rocking as rk
 from oracles.full_block import DIGITS, Block, Cosine, Samples
-from rocking.motion import monodromy
+from rocking.motion.march_loop import monodromy
 
 
 def base_of(random, level, records):

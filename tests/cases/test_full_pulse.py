@@ -13,7 +13,7 @@ from scipy.optimize import brentq, minimize_scalar
 import rocking as rk
 from oracles.full_block import DIGITS, Block, Pulse
 from rocking.kernels.forcing.full import pulse_base
-from rocking.motion.kernel_parameters import parameters
+from rocking.motion.march_loop import parameters
 
 ROUNDING = 2.0**-53
 FORMS = {"half-sine": (0.5, -math.pi / 2), "one-sine": (1.0, -math.pi / 2), "one-cosine": (1.0, 0.0)}

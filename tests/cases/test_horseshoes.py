@@ -6,8 +6,8 @@ import pytest
 from flint import arb, ctx
 
 import rocking as rk
-from rocking.proof import words
-from rocking.proof.balls import Refused, balls_of
+from rocking.proof import horseshoe
+from rocking.proof.arc import Refused, balls_of
 
 
 def system_of(amplitude, period, restitution):
@@ -109,36 +109,36 @@ def test_no_two_words_where_all_orbits_are_simple():
 def chains_and_parameters():
     p = balls_of(BRACED, {})
     orbits = [orbit for orbit in rk.find_orbits(BRACED, 1) if orbit.impacts]
-    return list(words.whole_chains(p, orbits)), p
+    return list(horseshoe.whole_chains(p, orbits)), p
 
 
 def test_an_orbit_twice_is_not_a_second_word():
     with ctx.workprec(128):
         chains, p = chains_and_parameters()
         for chain in chains:
-            a, twice = words.word_of(p, chain), words.joined(chain, chain)
-            b = words.Word(twice, a.phases + [psi + 2 * a.cycles * arb.pi() for psi in a.phases])
+            a, twice = horseshoe.word_of(p, chain), horseshoe.joined(chain, chain)
+            b = horseshoe.Word(twice, a.phases + [psi + 2 * a.cycles * arb.pi() for psi in a.phases])
             b = b._replace(phases=[psi.mid() for psi in b.phases])
-            assert not words.are_distinct(a, b, 1e-6)
+            assert not horseshoe.are_distinct(a, b, 1e-6)
             with pytest.raises(Refused, match="not distinct"):
-                words.check_shift(p, a, b, 1e-6)
+                horseshoe.check_shift(p, a, b, 1e-6)
 
 
 def mirror_images(chain):
     """Yield the mirror image of a chain, from each of its events on."""
     mirrored = chain._replace(side=-chain.side, phases=tuple(psi + math.pi for psi in chain.phases))
     for first in range(len(chain.phases)):
-        yield words.rotated(mirrored, first)
+        yield horseshoe.rotated(mirrored, first)
 
 
 def test_a_mirror_image_is_not_a_second_word():
     with ctx.workprec(128):
         chains, p = chains_and_parameters()
         for chain in chains:
-            a = words.word_of(p, chain)
+            a = horseshoe.word_of(p, chain)
             for image in mirror_images(chain):
                 with pytest.raises(Refused, match="not distinct"):
-                    words.check_shift(p, a, words.word_of(p, image), 1e-6)
+                    horseshoe.check_shift(p, a, horseshoe.word_of(p, image), 1e-6)
 
 
 def test_a_mirror_image_does_not_continue_an_orbit():
@@ -147,14 +147,14 @@ def test_a_mirror_image_does_not_continue_an_orbit():
         chains, p = chains_and_parameters()
         refused = 0
         for chain in chains:
-            a = words.word_of(p, chain)
+            a = horseshoe.word_of(p, chain)
             for image in mirror_images(chain):
-                b = words.word_of(p, image)
+                b = horseshoe.word_of(p, image)
                 before, after = (one + arb(0, 1e-6) for one in (b.phases[-1], b.phases[0]))
                 before -= 2 * a.cycles * arb.pi()
                 after += 2 * a.cycles * arb.pi()
                 if before < a.phases[0] and a.phases[-1] < after and not b.phases[0].overlaps(a.phases[0]):
                     refused += 1
                     with pytest.raises(Refused, match="not taken into itself"):
-                        words.check_block(p, a, 1e-6, before, after)
+                        horseshoe.check_block(p, a, 1e-6, before, after)
         assert refused > 0

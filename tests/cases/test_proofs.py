@@ -11,11 +11,9 @@ from flint import arb, arb_mat, ctx
 import rocking as rk
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.proof import cases, krawczyk, periodic, trajectory
-from rocking.proof.arc import arc_from
-from rocking.proof.balls import Refused, balls_of
+from rocking.proof.arc import Refused, Search, arc_from, balls_of
 from rocking.proof.chain import Chain
-from rocking.proof.orbit_chain import chain_of
-from rocking.proof.search import Search
+from rocking.proof.periodic import chain_of
 from rocking.proof.sets import States, renewed, sets_on_sections, states_on_sections
 
 FEW, MANY = 40, 300

@@ -14,8 +14,9 @@ from PIL import Image
 import rocking as rk
 from rocking.papers.report import page, workers
 from rocking.papers.report.claim import Standing
-from rocking.papers.yim_lin_1991 import cases, reproduce
+from rocking.papers.yim_lin_1991 import cases
 from rocking.papers.yim_lin_1991.claims import CHAPTERS
+from rocking.papers.yim_lin_1991.reproduce import reproduce
 
 NAMES = ["01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11", "12", "13a", "13b"]
 TABLES = [f"table-{name}{kind}" for name in ("exponents", "claims") for kind in (".csv", ".md")]

@@ -11,8 +11,9 @@ from PIL import Image
 
 import rocking as rk
 from rocking.papers import PAPERS, room_of
-from rocking.papers.pulses_and_earthquakes import judging, records, reproduce, runge_kutta, thresholds
+from rocking.papers.pulses_and_earthquakes import judging, records, runge_kutta, thresholds
 from rocking.papers.pulses_and_earthquakes.claims import CHAPTERS
+from rocking.papers.pulses_and_earthquakes.reproduce import reproduce
 from rocking.papers.report import page
 from rocking.papers.report.claim import Standing
 

@@ -9,7 +9,7 @@ import pytest
 
 from oracles import reactions
 from rocking import Block, Braces, Harmonic, PiecewiseLinear, Pulse, State, System, simulate
-from rocking.motion import block_warnings
+from rocking.motion.model_warnings import block_warnings
 from rocking.motion.validity import base_reaction, impact_friction
 
 GRAVITY = 9.80665

@@ -15,7 +15,7 @@ from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.forcing.drives import FullHarmonicDrive, FullPulseDrive, FullSampledDrive
 from rocking.kernels.forcing.full.crossing import first_zero
 from rocking.kernels.forcing.full.step import LONG, cannot_reach_base, error_bound, state_in, step_from
-from rocking.motion.kernel_parameters import parameters
+from rocking.motion.march_loop import parameters
 
 FEW, MANY = 400, 20_000
 STEPS = 200

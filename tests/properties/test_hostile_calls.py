@@ -29,7 +29,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import rocking as rk
-from rocking.model import RANGES
+from rocking.model.system import RANGES
 
 SOURCE = str(Path(rk.__file__).parent)
 SEED = 20_250_801

@@ -16,9 +16,9 @@ import pytest
 
 import rocking as rk
 from rocking.cli.main import main
-from rocking.model import ordinal
+from rocking.model.text import ordinal
 from rocking.papers.report.claim import Chapter, Finding
-from rocking.papers.yim_lin_1991 import reproduce
+from rocking.papers.yim_lin_1991.reproduce import reproduce
 
 NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
 SI = "--height 2 --width 0.5 --acceleration 2.9 --frequency-hz 1.8"

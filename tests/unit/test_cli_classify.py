@@ -5,7 +5,7 @@ import json
 import pytest
 
 import rocking as rk
-from rocking.model import angle_doubt
+from rocking.model.system import angle_doubt
 
 PERIODIC = "--amplitude 5.5 --period 0.5 --restitution 0.925 --phase 1.8 --velocity 0.15"
 TENTH = rk.System(rk.Harmonic(5.5, period=0.5, phase=1.8), 0.925), rk.State(velocity=0.15)

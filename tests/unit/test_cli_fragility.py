@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
-from rocking.records import EXAMPLE_FILE
+from rocking.records.read import FILE as EXAMPLE_FILE
 
 BLOCK = rk.Block(2.0, 0.5)
 LEVELS = np.linspace(0.2, 1.4, 7)

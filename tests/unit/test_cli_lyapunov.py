@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
-from rocking.model import plus_minus
+from rocking.model.text import plus_minus
 
 CHAOS = "--amplitude 10.103037 --period 1.721328 --restitution 0.8 --cycles 3000"
 RESTS = "--amplitude 1.1 --period 2 --restitution 0.5 --cycles 200"

@@ -12,7 +12,7 @@ import xarray as xr
 import rocking as rk
 from rocking.cli.input.map_request import WRITERS
 from rocking.cli.main import run
-from rocking.model import Criterion
+from rocking.model.verdict import Criterion
 
 LINE = "map --amplitude 0:16:20 --period 0.2:3:18 --restitution 0.9 --max-cycles 100"
 ASKED = {

@@ -10,7 +10,7 @@ import pytest
 
 import record_files as write
 import rocking as rk
-from rocking.records import EXAMPLE_FILE
+from rocking.records.read import FILE as EXAMPLE_FILE
 
 SIZE = "--height 2 --width 0.5"
 BLOCK = rk.Block(2.0, 0.5)

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
-from rocking.model import GRAVITY
+from rocking.model.block_formulas import GRAVITY
 
 LINE = "--amplitude 3:6:4 --period 1 --restitution 0.8 --samples 200"
 BLOCK = rk.Block(2.0, 0.5)

@@ -9,7 +9,7 @@ import xarray as xr
 
 import record_files as write
 import rocking as rk
-from rocking.records import EXAMPLE_FILE
+from rocking.records.read import FILE as EXAMPLE_FILE
 
 G = 9.80665
 WAVE = np.round(0.8 * np.sin(0.15 * np.arange(400)) * np.exp(-np.arange(400) / 150), 3)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model import PHYSICAL
+from rocking.model.block import PHYSICAL
 
 BLOCK = rk.Block(2.0, 0.5)
 TYPED = "--restitution 0.8 --phase 0.5"

@@ -32,10 +32,11 @@ from rocking.explorer.progressive_map import AHEAD, START, UNDETERMINED, Picture
 from rocking.explorer.session import Session
 from rocking.explorer.view_state import DEFAULT, POINTS, Span, ViewState, closest, nearby
 from rocking.explorer.worker_pools import Jobs, Workers
-from rocking.model import Criterion, percent
+from rocking.model.text import percent
+from rocking.model.verdict import Criterion
 from rocking.plot.parts import style
 from rocking.plot.parts.legend import LOOKS, NONE, looks
-from rocking.survey import cores
+from rocking.survey.engine.tile_loop import cores
 from rocking.survey.measures import attractors
 
 ASYMMETRIC = 2

@@ -48,9 +48,11 @@ from rocking.explorer.ground_motion.view import (
 )
 from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
-from rocking.model import KINDS, Outcome, TooManyEvents
-from rocking.records import reading_process
-from rocking.survey import BlockEndings
+from rocking.model.forcing import KINDS
+from rocking.model.validation import TooManyEvents
+from rocking.model.verdict import Outcome
+from rocking.records import read as reading_process
+from rocking.survey.measures.block_endings import BlockEndings
 
 G = 9.80665
 CODE = tuple(Outcome).index(Outcome.OVERTURNED)

@@ -17,7 +17,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
 from rocking.explorer import server
-from rocking.explorer.ground_motion import GroundSession
+from rocking.explorer.ground_motion.session import GroundSession
 from rocking.explorer.server import MAX_MESSAGE, is_ours, local_server
 from rocking.explorer.session import Session
 from rocking.explorer.worker_pools import Workers
@@ -320,7 +320,7 @@ def test_errors_of_our_own_code_are_still_told():
         except ValueError:
             return logging.LogRecord("bokeh", logging.ERROR, "", 0, "failed", (), sys.exc_info())
 
-    from rocking.model import within
+    from rocking.model.validation import within
 
     assert is_ours(failed(lambda: within("angle", 3, 0, 1)))
     assert not is_ours(failed(lambda: int("x")))

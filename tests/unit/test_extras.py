@@ -7,10 +7,10 @@ import pytest
 
 import rocking as rk
 from rocking.kernels.entry_point import EntryPoint
-from rocking.model.optional import EXTRAS
-from rocking.papers.yim_lin_1991 import reproduce
-from rocking.records.channel import TEXTS
-from rocking.survey import to_netcdf
+from rocking.model.package import EXTRAS
+from rocking.papers.yim_lin_1991.reproduce import reproduce
+from rocking.records.text_file import TEXTS
+from rocking.survey.store.export import to_netcdf
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 MOTION = rk.simulate(SYSTEM, cycles=3)

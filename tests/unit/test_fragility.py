@@ -10,7 +10,8 @@ from scipy.optimize import minimize
 from scipy.stats import norm
 
 import rocking as rk
-from rocking.model import GRAVITY, RecordSet
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.record_set import RecordSet
 from rocking.survey.sampling.block_samples import block_samples, fingerprint
 from rocking.survey.sampling.clustered_fractions import (
     clustered_fractions,

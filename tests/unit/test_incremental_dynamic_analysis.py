@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model import GRAVITY
+from rocking.model.block_formulas import GRAVITY
 
 BLOCK = rk.Block(2.0, 0.5)
 LEVELS = np.linspace(2.0, 8.0, 7)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model import INTENSITIES, intensity_of
+from rocking.model.record_set import INTENSITIES, intensity_of
 from rocking.survey.motion_spec import motion_question
 
 GRAVITY = 9.80665

@@ -19,7 +19,7 @@ from rocking.kernels.march.ending import ENDING_ROW
 from rocking.kernels.march.finite_motion import is_decided
 from rocking.kernels.march.finite_runs import RUN_ROW, run_batch
 from rocking.kernels.march.march import DONE, OVERTURNED
-from rocking.motion.kernel_parameters import parameters
+from rocking.motion.march_loop import parameters
 
 # At the end of this motion the block is on its way back, with enough energy to overturn on the other side.
 TURNING = rk.PiecewiseLinear([2.0, 2.0, 2.0, -12.0], step=0.25)

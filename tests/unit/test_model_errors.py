@@ -14,8 +14,9 @@ import xarray as xr
 import rocking as rk
 from rocking.cli.option_names import YourInput
 from rocking.explorer.field_readers import Refused
-from rocking.model import WriteError, shown_path
-from rocking.model.validation import WAYS, NoOrbit, TooManyEvents, TooShort, one_of, reals, shown, whole
+from rocking.model.files import WriteError
+from rocking.model.text import shown, shown_path
+from rocking.model.validation import WAYS, NoOrbit, TooManyEvents, TooShort, one_of, reals, whole
 from rocking.survey.store.locking import StoreError
 
 ONE = {

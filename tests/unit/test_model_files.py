@@ -7,7 +7,7 @@ import stat
 
 import pytest
 
-from rocking.model.atomic_files import (
+from rocking.model.files import (
     Made,
     WriteError,
     check_folder,
@@ -210,7 +210,7 @@ def test_folder_that_takes_no_files_is_refused_whatever_its_permissions_say(tmp_
     def refuse(**where):
         raise OSError(30, "Read-only file system", str(where))
 
-    monkeypatch.setattr("rocking.model.access_rights.TemporaryFile", refuse)
+    monkeypatch.setattr("rocking.model.files.TemporaryFile", refuse)
     with pytest.raises(PermissionError, match=r"^--csv must be writable; got .*a\.csv', which is not$"):
         check_writable("--csv", tmp_path / "a.csv", (".csv",))
     with pytest.raises(OSError, match=r"^--output must be a folder that can be written; got '"):

@@ -4,7 +4,7 @@ import base64
 
 import pytest
 
-from rocking.model import notebook_renderers
+from rocking.model import result as registry
 
 
 class Result:
@@ -14,12 +14,12 @@ class Result:
 
 @pytest.fixture(autouse=True)
 def empty_registry(monkeypatch):
-    monkeypatch.setattr(notebook_renderers, "_draws", {})
-    monkeypatch.setattr(notebook_renderers, "_fills", [])
+    monkeypatch.setattr(registry, "_draws", {})
+    monkeypatch.setattr(registry, "_fills", [])
 
 
 def test_result_without_a_picture_shows_its_line_alone():
-    assert notebook_renderers.html(Result()) is None
+    assert registry.html(Result()) is None
 
 
 def test_registry_is_filled_once_and_only_when_a_result_is_shown():
@@ -27,11 +27,11 @@ def test_registry_is_filled_once_and_only_when_a_result_is_shown():
 
     def fill():
         filled.append(1)
-        notebook_renderers.register(Result, lambda result: b"png")
+        registry.register(Result, lambda result: b"png")
 
-    notebook_renderers.fill_at_first_use(fill)
+    registry.fill_at_first_use(fill)
     assert not filled
-    shown = [notebook_renderers.html(Result()) for _ in range(2)]
+    shown = [registry.html(Result()) for _ in range(2)]
     assert filled == [1]
     assert shown[0] == shown[1]
     assert base64.b64encode(b"png").decode() in shown[0]

@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model import NO_BRACES, check_start, quantities, system_of
-from rocking.model.system import FORCINGS
+from rocking.model.system import FORCINGS, NO_BRACES, check_start, quantities, system_of
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 

@@ -11,7 +11,7 @@ import xarray as xr
 
 import rocking as rk
 from rocking.explorer import texts
-from rocking.motion import end_shown
+from rocking.motion.motion import end_shown
 
 SLOW = rk.System(rk.Harmonic(amplitude=2.0, period=1000.0), restitution=0.9)
 """Its cycle of overturning goes on far beyond e^709, the largest power that is a float."""

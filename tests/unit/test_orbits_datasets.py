@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
-from rocking.model import quantities
+from rocking.model.system import quantities
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
 

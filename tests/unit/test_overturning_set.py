@@ -8,7 +8,7 @@ import pytest
 
 import rocking as rk
 from oracles.record_runs import Case, exact
-from rocking.model import SWITCH_ROW, intervals_of
+from rocking.model.record_results import SWITCH_ROW, intervals_of
 
 BLOCK = rk.Block(height=2.0, width=0.5)
 UNIT = BLOCK.acceleration(1.0)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model import KINDS
+from rocking.model.forcing import KINDS
 
 OVERTURNED, STANDS = 2, 1
 RNG = np.random.default_rng(20)

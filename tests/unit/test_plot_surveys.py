@@ -8,7 +8,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import rocking as rk
-from rocking.model import percent
+from rocking.model.text import percent
 from rocking.plot.basins import colours
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)

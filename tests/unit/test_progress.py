@@ -7,7 +7,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from rocking.model import Bar, progress
+from rocking.model import progress
+from rocking.model.progress import Bar
 
 
 class Named:

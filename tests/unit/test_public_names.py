@@ -1,13 +1,11 @@
 """Public names: all are exported, and each is imported only when it is used."""
 
-import ast
 import inspect
 import json
 import pickle
 import subprocess
 import sys
 from importlib.metadata import version
-from pathlib import Path
 
 import pytest
 
@@ -79,13 +77,6 @@ def test_every_public_name_is_there(name):
 @pytest.mark.parametrize("name", rocking.theory.__all__)
 def test_every_name_of_the_theory_is_there_and_says_what_it_is(name):
     assert getattr(rocking.theory, name).__doc__
-
-
-def test_type_checkers_see_the_same_names():
-    tree = ast.parse(Path(rocking.__file__).read_text(encoding="utf-8"))
-    guarded = next(node for node in tree.body if isinstance(node, ast.If))
-    seen = [alias.asname or alias.name for node in guarded.body for alias in node.names]
-    assert sorted(seen) == sorted(rocking.__all__)
 
 
 def test_unknown_name_is_an_attribute_error():

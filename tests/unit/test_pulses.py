@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model import KINDS
+from rocking.model.forcing import KINDS
 
 RESTITUTION = 0.9
 HALF_SINE = {0.5: 1.10941782324, 1: 1.32239659791, 2: 1.80072393056, 3: 2.29387231344, 5: 3.28914677752}

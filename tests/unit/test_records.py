@@ -11,7 +11,7 @@ import pytest
 
 import record_files as write
 import rocking as rk
-from rocking.records.example import FILE
+from rocking.records.read import FILE
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*a PGA of .* is unusual")
 G = 9.80665

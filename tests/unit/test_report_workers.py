@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from rocking.model import Bar
+from rocking.model.progress import Bar
 from rocking.papers import PAPERS, room_of
 from rocking.papers.report import workers
 from rocking.papers.report.workers import Step, carry_out, shared

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.response.island_rotation import average
+from rocking.response.rotation_number import average
 
 
 def system(amplitude, period, restitution=1.0, phase=0.0, braces=None):

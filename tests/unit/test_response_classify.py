@@ -12,7 +12,7 @@ import pytest
 
 import rocking as rk
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import Criterion
+from rocking.model.verdict import Criterion
 from rocking.response.evidence import SHOWN, at_most
 
 NOT_PERIODIC = (

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 import rocking as rk
-from rocking.response import pair_counts
+from rocking.response import correlation_dimension
 
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 WIDEST = 0.12
@@ -83,8 +83,8 @@ def test_listing_pairs_and_counting_them_by_trees_are_the_same(theiler):
     """Points along a line in time: most close pairs follow each other, so the window decides what is left."""
     points = np.cumsum(np.random.default_rng(8).normal(size=(3_000, 2)), axis=0)
     tree, radii = cKDTree(points), np.geomspace(0.3, 6.0, 9)
-    listed, admitted = pair_counts._listed(tree, theiler, radii)
-    counted, also_admitted = pair_counts._counted(tree, np.arange(3_000), theiler, radii)
+    listed, admitted = correlation_dimension._listed(tree, theiler, radii)
+    counted, also_admitted = correlation_dimension._counted(tree, np.arange(3_000), theiler, radii)
     np.testing.assert_array_equal(listed, counted)
     np.testing.assert_array_equal(admitted, also_admitted)
     lag = np.abs(np.subtract.outer(np.arange(3_000), np.arange(3_000)))

@@ -11,7 +11,8 @@ from scipy.integrate import quad
 from scipy.signal import get_window, lfilter
 
 import rocking as rk
-from rocking.response import spectral_line_names, spectral_lines, uniform_samples, welch_spectrum
+from rocking.response import spectral_lines
+from rocking.response import spectrum as welch
 
 MODE = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
 FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.3), restitution=1.0)
@@ -35,7 +36,7 @@ def signal_of(cycles, samples, tones, mean=0.0):
 
 def lines_in(values, segment, window="blackmanharris", period=None):
     taper = spectral_lines.Taper(get_window(window, segment * values.shape[1]))
-    _, density, segments = uniform_samples.welch(values, segment, segment // 2, taper)
+    _, density, segments = welch.welch(values, segment, segment // 2, taper)
     worth = taper.independent(segments, (segment - segment // 2) * values.shape[1])
     return spectral_lines.find_lines(
         values, density, segment, taper, worth, values.shape[1] / 16, period
@@ -156,33 +157,33 @@ def test_windows_have_their_known_lobes(window, lobe, side_lobes, bandwidth):
     ],
 )
 def test_names_read_as_combinations(forcing, rotation, name):
-    assert spectral_line_names.Combination(forcing, rotation, 0.0).name == name
+    assert spectral_lines.Combination(forcing, rotation, 0.0).name == name
 
 
 def test_simplest_combination_is_named_and_an_ambiguous_one_is_not():
     rotation = (math.sqrt(5) - 1) / 2
-    assert spectral_line_names.combination(2 - 3 * rotation, 1, rotation, 1e-4).name == "2f − 3f_r"
-    assert spectral_line_names.combination(0.123456, 1, rotation, 1e-4) is None
+    assert spectral_lines.combination(2 - 3 * rotation, 1, rotation, 1e-4).name == "2f − 3f_r"
+    assert spectral_lines.combination(0.123456, 1, rotation, 1e-4) is None
     # 3/5: two rotations less a forcing, or one forcing less three rotations more, are nearly the same
     near = 0.6 + 1e-6
-    assert spectral_line_names.combination(2 * near, 1, near, 1e-4) is None
-    assert spectral_line_names.combination(2 * near, 1, near, 1e-7).name == "2f_r"
+    assert spectral_lines.combination(2 * near, 1, near, 1e-4) is None
+    assert spectral_lines.combination(2 * near, 1, near, 1e-7).name == "2f_r"
 
 
 def test_short_records_name_only_what_chance_would_not():
     rotation, line = (math.sqrt(5) - 1) / 2, 7 - 9 * (math.sqrt(5) - 1) / 2
-    assert spectral_line_names.combination(line, 1, rotation, 1 / 1_000).name == "7f − 9f_r"
+    assert spectral_lines.combination(line, 1, rotation, 1 / 1_000).name == "7f − 9f_r"
     # at 100 cycles ±9 rotations cover 19/50 of all frequencies
-    assert spectral_line_names.combination(line, 1, rotation, 1 / 100) is None
+    assert spectral_lines.combination(line, 1, rotation, 1 / 100) is None
 
 
 def test_islands_and_rotation_are_found_from_the_lines():
     third, turn = 1 / 3, 0.1751949705
     telling = [third, turn, 1.0, 2 / 3 - turn, 2 * turn - third, 2 / 3 + turn]
-    assert spectral_line_names.parts_and_rotation(telling, None, None, 1e-4) == (3, turn)
-    assert spectral_line_names.parts_and_rotation(telling, None, third - turn, 1e-4) == (3, third - turn)
+    assert spectral_lines.parts_and_rotation(telling, None, None, 1e-4) == (3, turn)
+    assert spectral_lines.parts_and_rotation(telling, None, third - turn, 1e-4) == (3, third - turn)
     # a line that explains only itself is no rotation
-    assert spectral_line_names.parts_and_rotation([1.0, 0.1237], None, None, 1e-4) == (1, None)
+    assert spectral_lines.parts_and_rotation([1.0, 0.1237], None, None, 1e-4) == (1, None)
 
 
 def test_power_of_a_periodic_response_is_its_variance(settled):
@@ -275,8 +276,8 @@ def test_in_a_broad_band_no_rotation_is_sought():
     """Four lines that a rotation names, with all of the variance between them or with a third of it."""
     found = [spectral_lines.Line(f, 0.1, 1.0) for f in (1.0, 0.3819, 2 * 0.3819, 1 - 0.3819)]
     carried = 4 * 0.1**2 / 2
-    assert welch_spectrum._parts_and_rotation(found, carried, None, None, 1e-3) == (1, 0.3819)
-    assert welch_spectrum._parts_and_rotation(found, 3 * carried, None, None, 1e-3) == (1, None)
+    assert welch._parts_and_rotation(found, carried, None, None, 1e-3) == (1, 0.3819)
+    assert welch._parts_and_rotation(found, 3 * carried, None, None, 1e-3) == (1, None)
 
 
 def test_segment_overlap_window_and_samples_are_used_and_told(settled):

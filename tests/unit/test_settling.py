@@ -17,7 +17,7 @@ from rocking.kernels.march import march as kernel
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
-from rocking.motion.kernel_parameters import parameters as kernel_parameters
+from rocking.motion.march_loop import parameters as kernel_parameters
 
 STEADY = HarmonicDrive(1.0, 0.0)
 

@@ -7,7 +7,8 @@ from concurrent.futures import Future
 import numpy as np
 
 import rocking as rk
-from rocking.model import Bar, percent
+from rocking.model.progress import Bar
+from rocking.model.text import percent
 from rocking.survey.engine import cost
 from rocking.survey.engine.progress import count_when_done
 

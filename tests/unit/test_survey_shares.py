@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model import Share, wilson
+from rocking.model.share import Share, wilson
 from rocking.survey.sampling.uncertainty_exponent import distances, exponent, perturbed_triples
 
 Z = 1.959963984540054

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.survey import classify_points, classify_with_anchor, measurement
+from rocking.survey import measurement
 from rocking.survey.harmonic_spec import HarmonicSpec
 from rocking.survey.measurement import Batch, batches, compute
 from rocking.survey.measures import attractors, ending, kind, pulse_ending
-from rocking.survey.measures.response import response
+from rocking.survey.measures.attractors import classify_with_anchor
+from rocking.survey.measures.response import classify_points, response
 from rocking.survey.motion_spec import motion_question
 from rocking.survey.pulse_spec import pulse_question
 from rocking.survey.repeatability_map import judge as judge_repeatedly

@@ -86,8 +86,9 @@ def refused(error: Exception) -> tuple[int, str]:
     """Return the exit code and the message for an error that ended a command."""
     from typer import TyperException
 
-    from rocking.kernels.library import KernelsUnusable
-    from rocking.model import FULL, ExtraMissing, WriteError
+    from rocking.kernels.library.load import KernelsUnusable
+    from rocking.model.files import FULL, WriteError
+    from rocking.model.package import ExtraMissing
 
     if isinstance(error, KernelsUnusable | ExtraMissing):
         return 2, str(error)

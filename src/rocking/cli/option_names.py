@@ -58,7 +58,7 @@ def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
 @contextmanager
 def computing(typed: Mapping[str, str] | None = None) -> Iterator[None]:
     """Convert errors as `your_input` does, and show on stderr the time that a long computation takes."""
-    from rocking.model import Bar
+    from rocking.model.progress import Bar
 
     with your_input(typed), Bar(what="computing"):
         yield

@@ -12,13 +12,16 @@ from bokeh.document import Document
 
 from rocking.explorer import plane_axes, presets
 from rocking.explorer.field_readers import WORDS
-from rocking.explorer.ground_motion import GroundSession
-from rocking.explorer.ground_motion import page as ground_page
+from rocking.explorer.ground_motion.page import page as ground_page
+from rocking.explorer.ground_motion.session import GroundSession
 from rocking.explorer.server import LocalServer, local_server
 from rocking.explorer.session import Session
 from rocking.explorer.worker_pools import Workers
-from rocking.model import VERSION, Criterion, Harmonic, System
-from rocking.motion import simulate
+from rocking.model.forcing import Harmonic
+from rocking.model.package import VERSION
+from rocking.model.system import System
+from rocking.model.verdict import Criterion
+from rocking.motion.simulate import simulate
 from rocking.plot import palette
 from rocking.plot.parts import legend
 

@@ -8,7 +8,7 @@ from typing import Any
 from urllib.parse import parse_qsl
 
 from rocking.explorer.view_state import Span
-from rocking.model import refusal, refuse_if
+from rocking.model.validation import refusal, refuse_if
 
 VERSION = 1
 """Version of links; increased when an earlier link would show a different view."""

@@ -12,12 +12,16 @@ from attrs import frozen
 
 from rocking.explorer.bokeh_figures import no_image
 from rocking.explorer.view_state import Span, ViewState
-from rocking.model import MAX_START, Outcome, State, System, TooManyEvents, Verdict
-from rocking.motion import Motion, simulate
-from rocking.orbits import orbit_diagram
+from rocking.model.system import MAX_START, State, System
+from rocking.model.validation import TooManyEvents
+from rocking.model.verdict import Outcome, Verdict
+from rocking.motion.motion import Motion
+from rocking.motion.simulate import simulate
+from rocking.orbits.orbit_diagram import orbit_diagram
 from rocking.plot.parts import sample_times as instants
 from rocking.plot.parts import style
-from rocking.response import classify, spectral_density
+from rocking.response.classify import classify
+from rocking.response.spectrum import spectral_density
 
 Columns = dict[str, Any]
 Ranges = tuple[float, float, float, float]

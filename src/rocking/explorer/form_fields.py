@@ -21,18 +21,10 @@ from rocking.explorer.field_readers import (
     written,
 )
 from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest
-from rocking.model import (
-    BRACE_ANGLES,
-    CRITICAL_ANGLES,
-    MAX_AMPLITUDE,
-    MAX_PHASE,
-    MAX_START,
-    PERIODS,
-    Block,
-    check_below_flat,
-    check_start,
-    refusal,
-)
+from rocking.model.block import Block
+from rocking.model.forcing import MAX_AMPLITUDE, MAX_PHASE, PERIODS
+from rocking.model.system import BRACE_ANGLES, CRITICAL_ANGLES, MAX_START, check_below_flat, check_start
+from rocking.model.validation import refusal
 from rocking.plot.parts import theory_curves
 
 SAME = 1e-3

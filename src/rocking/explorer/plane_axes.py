@@ -11,7 +11,7 @@ from attrs import frozen
 
 from rocking.explorer.progressive_map import Picture
 from rocking.explorer.view_state import Span, ViewState, closest
-from rocking.model import Block
+from rocking.model.block import Block
 from rocking.plot.parts import theory_curves
 
 DEEP = 1e-6

@@ -13,9 +13,10 @@ from attrs import field, frozen
 from rocking.explorer.attractor_labels import Orbits
 from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
-from rocking.model import Kind
+from rocking.model.verdict import Kind
 from rocking.plot.parts import legend
-from rocking.survey import classify_points, classify_with_anchor
+from rocking.survey.measures.attractors import classify_with_anchor
+from rocking.survey.measures.response import classify_points
 
 PERIOD = 64
 """Largest response period that is sought, in forcing cycles."""

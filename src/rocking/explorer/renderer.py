@@ -17,7 +17,9 @@ from rocking.explorer.page_channel import Link
 from rocking.explorer.progressive_map import FIRST, Picture, Plane, Refinement
 from rocking.explorer.view_state import POINTS, Span, ViewState
 from rocking.explorer.worker_pools import Workers
-from rocking.model import MAX_AMPLITUDE, MAX_START, PERIODS, Kind, Verdict
+from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
+from rocking.model.system import MAX_START
+from rocking.model.verdict import Kind, Verdict
 
 BASIN_POINTS = 257
 FIRST_HITS = 3e3

@@ -12,7 +12,11 @@ from rocking.explorer.bokeh_figures import SHADED
 from rocking.explorer.field_readers import written
 from rocking.explorer.progressive_map import Picture
 from rocking.explorer.view_state import DEFAULT, ViewState
-from rocking.model import GRAVITY, Block, Harmonic, Kind, Verdict, counted, percent
+from rocking.model.block import Block
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.forcing import Harmonic
+from rocking.model.text import counted, percent
+from rocking.model.verdict import Kind, Verdict
 from rocking.plot.parts import legend as looks
 
 Facts = list[tuple[str, str]]

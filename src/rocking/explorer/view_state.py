@@ -6,7 +6,8 @@ import math
 
 from attrs import asdict, evolve, frozen
 
-from rocking.model import NO_BRACES, Block, State, System, system_of
+from rocking.model.block import Block
+from rocking.model.system import NO_BRACES, State, System, system_of
 
 POINTS = 513
 """Points along each side of the finest map: 2⁹ + 1, so that each grid consists of every second point of the next."""

@@ -1,25 +1,224 @@
-"""Recorded or synthetic ground acceleration in SI units, and the quantities by which engineers describe it."""
+"""Recorded or synthetic ground acceleration in SI units, and the quantities by which engineers describe it.
+
+With the file that it was read from, and sentences on a motion that is probably not what is meant.
+"""
 
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Sequence
 from typing import Any
 
 import attrs
 import numpy as np
 from attrs import evolve, field, frozen
 
-from rocking.model import ground_motion_checks
-from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model import forcing
 from rocking.model.block_formulas import GRAVITY
-from rocking.model.forcing import UNITS, BaseMotion
-from rocking.model.ground_motion_checks import BASELINES, MAX_ACCELERATION, MAX_FACTOR
-from rocking.model.ground_motion_doubts import drift_doubt, is_vertical, pga_doubt
-from rocking.model.input_warning import warn_of_value
-from rocking.model.oscillator import pseudo_acceleration
-from rocking.model.piecewise_linear import PiecewiseLinear, velocity_and_displacement
-from rocking.model.record_file import RecordFile
-from rocking.model.validation import exactly_one, finite, reals, refusal, within
+from rocking.model.forcing import UNITS, BaseMotion, PiecewiseLinear, velocity_and_displacement
+from rocking.model.result import ReadOnlyArrays, read_only
+from rocking.model.text import listed
+from rocking.model.validation import (
+    exactly_one,
+    finite,
+    instance,
+    one_of,
+    reals,
+    refusal,
+    warn_of_value,
+    within,
+)
+
+STEPS = (1e-6, 1e3)
+MAX_ACCELERATION = MAX_FACTOR = 1e6
+BASELINES = {"none": None, "mean": 0, "linear": 1, "quadratic": 2}
+"""Degree of the polynomial that is fitted to the acceleration and subtracted."""
+
+
+def checked_samples(values: Any) -> np.ndarray:
+    """Return the samples, after checking."""
+    return forcing.samples("acceleration", values, MAX_ACCELERATION)
+
+
+def checked_step(value: float) -> float:
+    """Return the time step in s, after checking."""
+    return within("step", value, *STEPS, "s")
+
+
+def checked_name(value: str) -> str:
+    """Return the name, after checking."""
+    return instance("name", value, str)
+
+
+def checked_component(value: str) -> str:
+    """Return the component, after checking."""
+    return instance("component", value, str)
+
+
+def checked_factor(value: float) -> float:
+    """Return the factor, after checking."""
+    return finite("factor", value, MAX_FACTOR)
+
+
+def checked_baseline(value: str) -> str:
+    """Return the baseline, after checking."""
+    return one_of("baseline", value, tuple(BASELINES))
+
+
+MAX_END, MAX_MEAN, MAX_RATIO = 0.2, 0.5, 30.0
+"""Largest |velocity| at the end over PGV, |mean velocity| over its root mean square, and PGA PGD/PGV² without drift."""
+USUAL_PGA = (0.01, 50.0)
+"""Peaks in m/s² without a warning: nobody feels a smaller one, and about 40 m/s² is the largest that was recorded."""
+VERTICAL = {"u", "up", "v", "ver", "vert", "vertical", "z", "ud", "updown", "down", "dn", "dwn"}
+"""Letters of components that are vertical; so is each code of three letters that ends with z."""
+
+
+def is_vertical(component: str) -> bool:
+    """Return whether the name of a component is vertical.
+
+    Examples
+    --------
+    >>> is_vertical("U-D"), is_vertical("HNZ"), is_vertical("360°")
+    (True, True, False)
+    """
+    letters = re.sub("[^a-z]", "", component.partition(",")[0].lower())
+    return letters in VERTICAL or (len(letters) == 3 and letters.endswith("z"))
+
+
+def drift_doubt(motion: GroundMotion) -> str:
+    """Return the sentence of `GroundMotion.drift_doubt`."""
+    pgv, velocity = motion.pgv, motion.velocity
+    if pgv == 0.0:
+        return ""
+    end = abs(float(velocity[-1])) / pgv
+    mean = abs(float(velocity.mean())) / math.sqrt(float((velocity**2).mean()))
+    ratio = motion.pga * motion.pgd / pgv**2
+    reasons = {
+        f"the velocity at the end is {100 * end:.0f} % of the PGV": end / MAX_END,
+        f"the mean velocity is {100 * mean:.0f} % of its root mean square": mean / MAX_MEAN,
+        f"PGA PGD/PGV² is {ratio:.3g}, where 6 is usual": ratio / MAX_RATIO,
+    }
+    worst = max(reasons, key=reasons.__getitem__)
+    if reasons[worst] <= 1.0:
+        return ""
+    treated = "no" if motion.baseline == "none" else f"a {motion.baseline}"
+    better = {"linear": "quadratic", "quadratic": None}.get(motion.baseline, "linear")
+    remedy = (
+        f"use a corrected record, or for example baseline={better!r}" if better else "use a corrected record"
+    )
+    return (
+        f"the PGV and PGD are those of a drift, because {treated} baseline is removed and {worst}: {remedy}"
+    )
+
+
+def pga_doubt(pga: float) -> str:
+    """Return a sentence on a peak in m/s² that is probably in another unit; empty for any other."""
+    low, high = USUAL_PGA
+    if pga == 0.0 or low <= pga <= high:
+        return ""
+    return f"a PGA of {pga:.4g} m/s² is unusual: check the unit of the samples"
+
+
+def vertical_sentence(names: Sequence[str]) -> str:
+    """Return the warning that vertical components are used as horizontal ones."""
+    which = "the component {} is" if len(names) == 1 else "the components {} are"
+    return f"{which.format(listed(names))} vertical, and the base moves horizontally: choose a horizontal component"
+
+
+SMALL = 1.0
+TERMS = 24
+
+
+def pseudo_acceleration(acceleration: np.ndarray, step: float, period: float, damping: float) -> float:
+    """Return ω² max|u| at the samples, with u'' + 2ζω u' + ω² u = −a from rest.
+
+    The time is s = ωt, x is ω² u, and λ = −ζ + i√(1−ζ²) is a root of the oscillator. Then q = x' − λ*x obeys q' = λq − a,
+    one recursion of first order, and x = Im q / Im λ.
+
+    Examples
+    --------
+    >>> round(pseudo_acceleration(np.ones(101), step=0.01, period=1.0, damping=0.0), 9)
+    2.0
+    """
+    from scipy.signal import lfilter
+
+    turn = 2 * math.pi * step / period
+    root = complex(-damping, math.sqrt(1 - damping**2))
+    growth, start, end = _exact_step(root * turn)
+    a = np.concatenate(([0.0], acceleration))
+    # The 0 in front stands for rest at the first sample, from which no interval leads back.
+    drive = start * turn * a[:-1] + end * turn * a[1:]
+    drive[0] = 0.0
+    q = lfilter([1.0], [1.0, -growth], drive)
+    return float(np.abs(q.imag).max()) / root.imag
+
+
+def _exact_step(z: complex) -> tuple[complex, complex, complex]:
+    """Return e^z, and the weights of both ends of a linear function in ∫₀¹ e^(z(1−s)) f(s) ds."""
+    if abs(z) < SMALL:
+        second = sum(z**k / math.factorial(k + 2) for k in range(TERMS))
+        first = 1 + z * second
+        return 1 + z * first, first - second, second
+    growth = np.exp(z)
+    first = (growth - 1) / z
+    second = (first - 1) / z
+    return growth, first - second, second
+
+
+RELATIVE_TOLERANCE = 0.01
+"""Allowed relative difference between the two peaks: that of samples printed with three digits."""
+
+
+@frozen
+class RecordFile:
+    """File that a ground motion was read from.
+
+    Attributes
+    ----------
+    name : str
+        Name of the file.
+    sha256 : str
+        SHA-256 digest of its bytes, hexadecimal.
+    format : str
+        Format of the file, such as "PEER AT2".
+    channel : str
+        Channel of the file, such as "channel 1 of 3, 90°"; empty if it has only one.
+    pga : float or None
+        Peak ground acceleration of the samples as read, in m/s².
+    header_pga : float or None
+        Peak ground acceleration according to the header, in m/s², without its sign; None if the header gives none.
+    header_rounding : float
+        Half a unit of the last digit of `header_pga`, in m/s².
+
+    Examples
+    --------
+    >>> file = RecordFile("a.v2", "0" * 64, "CSMIP V2", pga=2.0, header_pga=2.51, header_rounding=0.005)
+    >>> round(file.pga_difference, 3), file.pga_agrees
+    (-0.51, False)
+    """
+
+    name: str
+    sha256: str
+    format: str
+    channel: str = ""
+    pga: float | None = None
+    header_pga: float | None = None
+    header_rounding: float = 0.0
+
+    @property
+    def pga_difference(self) -> float | None:
+        """PGA of the samples less PGA of the header, in m/s²; None if one is unknown."""
+        return None if self.pga is None or self.header_pga is None else self.pga - self.header_pga
+
+    @property
+    def pga_agrees(self) -> bool | None:
+        """Agreement of both PGA within 1 % and the rounding of the header; None if one is unknown."""
+        difference = self.pga_difference
+        if difference is None or self.header_pga is None:
+            return None
+        return abs(difference) <= self.header_rounding + RELATIVE_TOLERANCE * self.header_pga
+
 
 PERIODS = (1e-4, 1e4)
 MAX_DAMPING = 0.99
@@ -70,15 +269,15 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
 
     _samples: np.ndarray = field(
         alias="acceleration",
-        converter=ground_motion_checks.samples,
+        converter=checked_samples,
         eq=attrs.cmp_using(eq=np.array_equal),
         hash=False,
     )
-    step: float = field(converter=ground_motion_checks.step, kw_only=True)
-    name: str = field(default="", converter=ground_motion_checks.name, kw_only=True)
-    component: str = field(default="", converter=ground_motion_checks.component, kw_only=True)
-    baseline: str = field(default="none", converter=ground_motion_checks.baseline, kw_only=True)
-    factor: float = field(default=1.0, converter=ground_motion_checks.factor, kw_only=True)
+    step: float = field(converter=checked_step, kw_only=True)
+    name: str = field(default="", converter=checked_name, kw_only=True)
+    component: str = field(default="", converter=checked_component, kw_only=True)
+    baseline: str = field(default="none", converter=checked_baseline, kw_only=True)
+    factor: float = field(default=1.0, converter=checked_factor, kw_only=True)
     file: RecordFile | None = field(default=None, kw_only=True)
     _corrected: bool = field(default=False, kw_only=True, repr=False, eq=False)
 

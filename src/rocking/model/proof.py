@@ -6,7 +6,7 @@ import math
 
 from attrs import field, frozen
 
-from rocking.model.binomial_share import Share
+from rocking.model.share import Share
 from rocking.model.system import System
 
 Disc = tuple[complex, float]

@@ -9,8 +9,17 @@ from itertools import pairwise
 from attrs import field, frozen
 
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
-from rocking.model.input_warning import warn_of_value
-from rocking.model.validation import finite, instance, members, one_of, pair, refusal, refuse_if, within
+from rocking.model.validation import (
+    finite,
+    instance,
+    members,
+    one_of,
+    pair,
+    refusal,
+    refuse_if,
+    warn_of_value,
+    within,
+)
 
 BRACE_ANGLES = (1e-3, 1e3)
 CRITICAL_ANGLES = (1e-3, 1.2)
@@ -317,3 +326,40 @@ def check_between(angle: float, reach: float) -> None:
     """Raise ValueError if an angle lies beyond braces at ±`reach`."""
     if abs(angle) > reach:
         raise ValueError(refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", angle))
+
+
+def check_start(system: System, start: State | None) -> State:
+    """Return the initial state of a motion, by default at rest.
+
+    Raises
+    ------
+    TypeError
+        If `system` is not a System or `start` is not a State.
+    ValueError
+        If the initial state lies outside [-1000, 1000], beyond a brace, or where a full block lies flat.
+    """
+    instance("system", system, System)
+    start = State() if start is None else instance("start", start, State)
+    within("angle", start.angle, -MAX_START, MAX_START)
+    within("velocity", start.velocity, -MAX_START, MAX_START)
+    if system.braces is not None:
+        check_between(start.angle, system.braces.angle)
+    if system.critical_angle is not None:
+        flat = 0.5 * math.pi / system.critical_angle
+        allowed = f"lie within ±{flat:.6g}, where the block lies flat"
+        refuse_if(abs(start.angle) >= flat, "angle", allowed, start.angle)
+    return start
+
+
+def check_periodic(system: System, start: State | None) -> State:
+    """Return the initial state as `check_start` does, for an analysis that needs a periodic base motion.
+
+    Raises
+    ------
+    TypeError
+        If the base motion is not periodic, or as in `check_start`.
+    ValueError
+        As in `check_start`.
+    """
+    instance("system", system, System).periodic  # noqa: B018 (it refuses)
+    return check_start(system, start)

@@ -1,15 +1,24 @@
-"""Validation of arguments, with one-line messages: the argument, the allowed values, the given value and the remedy."""
+"""Validation of arguments, with one-line messages: the argument, the allowed values, the given value and the remedy.
+
+Also messages for keywords that a function does not have, and warnings of input that is probably not what the user means.
+"""
 
 from __future__ import annotations
 
+import difflib
+import inspect
 import math
-from collections.abc import Iterable, Mapping, Sequence
+import sys
+import warnings
+from collections.abc import Callable, Iterable, Mapping, MutableMapping, Sequence
+from functools import wraps
 from numbers import Real
-from typing import Any, TypeVar
+from types import FrameType
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from rocking.model.short_texts import shown
+from rocking.model.text import shown
 
 Value = TypeVar("Value")
 
@@ -320,3 +329,107 @@ def exactly_one(**values: object) -> str:
         got = " and ".join(f"{name}={shown(value)}" for name, value in given.items()) or "none"
         raise TypeError(f"give exactly one of {', '.join(values)}; got {got}")
     return next(iter(given))
+
+
+Call = TypeVar("Call", bound=Callable[..., Any])
+MAX_LISTED = 180
+
+
+def similar(name: str, known: Iterable[str]) -> str | None:
+    """Return the known name that is most similar to an unknown one: the shortest that begins with it, or a near one, or None.
+
+    Examples
+    --------
+    >>> similar("restituion", ["forcing", "restitution"]), similar("h", ["height", "width"]), similar("t_end", ["cycles"])
+    ('restitution', 'height', None)
+    """
+    known = sorted(known, key=len)
+    begun = [each for each in known if each.startswith(name)]
+    return next(iter(begun + difflib.get_close_matches(name, known, 1, cutoff=0.8)), None)
+
+
+def explain(namespace: MutableMapping[str, Any], names: Iterable[str]) -> None:
+    """Let the public functions and classes in a namespace explain a keyword that they do not have.
+
+    A function is replaced in this namespace, and pickled by its name there. A class gets another constructor. Signatures and
+    docstrings stay the same.
+    """
+    for name in names:
+        value = namespace[name]
+        if inspect.isfunction(value):
+            namespace[name] = explained(value)
+            namespace[name].__module__ = namespace["__name__"]
+        elif inspect.isclass(value) and "__init__" in vars(value):
+            value.__init__ = explained(value.__init__)  # type: ignore[method-assign]
+
+
+def explained(function: Call) -> Call:
+    """Return the function with a message for an unknown keyword that names the function and the nearest keyword."""
+    if hasattr(function, "__wrapped__"):
+        return function
+
+    @wraps(function)
+    def call(*args: Any, **kwargs: Any) -> Any:
+        try:
+            return function(*args, **kwargs)
+        except TypeError as error:
+            known = inspect.signature(function).parameters
+            wrong = [key for key in kwargs if key not in known]
+            if error.__traceback__.tb_next is not None or not wrong:  # type: ignore[union-attr]
+                raise  # the call itself was right
+            name = function.__qualname__.removesuffix(".__init__").rpartition(".")[-1]
+            raise TypeError(_unknown(name, wrong[0], [key for key in known if key != "self"])) from None
+
+    return cast(Call, call)
+
+
+def _unknown(name: str, wrong: str, known: list[str]) -> str:
+    """Return the message for an unknown keyword of a function."""
+    near, all_of_them = similar(wrong, known), ", ".join(known)
+    if len(all_of_them) > MAX_LISTED:
+        all_of_them = all_of_them[:MAX_LISTED].rpartition(", ")[0] + ", …"
+    way = f"did you mean {near!r}?" if near else f"it has: {all_of_them}" if known else "it has none"
+    return f"{name}() has no argument {shown(wrong)} ({way})"
+
+
+OWN = ("rocking", "attr", "attrs", "contextlib")
+
+
+class InputWarning(UserWarning):
+    """Input that is allowed, but probably not what is meant: a wrong unit, a vertical channel, a peak unlike that of the header.
+
+    The message is one sentence. All warnings of the package have this class. `warnings.simplefilter("error", rk.InputWarning)`
+    makes errors of them.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> issubclass(rk.InputWarning, UserWarning)
+    True
+    """
+
+
+def warn_of_input(sentence: str) -> None:
+    """Warn the user, whose line is the first one outside the package."""
+    frame: FrameType | None = sys._getframe(1)
+    level = 2
+    while frame is not None and _is_own(frame):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(sentence, InputWarning, stacklevel=level)
+
+
+def warn_of_value(sentence: str) -> None:
+    """Warn of an argument of the calling method or class; the package, which gives such values on purpose, is not warned."""
+    frame: FrameType | None = sys._getframe(2)
+    while frame is not None and (_is_generated(frame) or frame.f_globals.get("__name__") == __name__):
+        frame = frame.f_back
+    if frame is not None and not _is_own(frame):
+        warn_of_input(sentence)
+
+
+def _is_generated(frame: FrameType) -> bool:
+    return frame.f_code.co_filename.startswith("<attrs generated")
+
+
+def _is_own(frame: FrameType) -> bool:
+    return _is_generated(frame) or str(frame.f_globals.get("__name__")).partition(".")[0] in OWN

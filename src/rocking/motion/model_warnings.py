@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import GRAVITY, Block
+from rocking.model.block import Block
+from rocking.model.block_formulas import GRAVITY
 
 MAX_HEIGHT = 30.0
 """Height in m above which the size of a block was possibly not given in metres."""

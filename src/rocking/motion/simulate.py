@@ -12,22 +12,13 @@ from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import ending as ends
 from rocking.kernels.march import event_rows, finite_runs, initial_state
 from rocking.kernels.march import march as kernel
-from rocking.model import (
-    Harmonic,
-    Overturning,
-    State,
-    System,
-    check_periodic,
-    check_start,
-    one_of,
-    refuse_if,
-    whole,
-    within,
-)
-from rocking.motion.event_table import events_of
-from rocking.motion.kernel_parameters import parameters
-from rocking.motion.march_loop import is_lossless, outcome_of, run, start_march, state_of
+from rocking.model.forcing import Harmonic
+from rocking.model.system import State, System, check_periodic, check_start
+from rocking.model.validation import one_of, refuse_if, whole, within
+from rocking.model.verdict import Overturning
+from rocking.motion.march_loop import is_lossless, outcome_of, parameters, run, start_march, state_of
 from rocking.motion.motion import Motion
+from rocking.motion.trajectory import events_of
 
 MAX_CYCLES = 1_000_000_000
 MAX_SECTION_CYCLES = 100_000_000

@@ -1,30 +1,60 @@
-"""Trajectory of one simulated block: its events, and its exact state at any time."""
+"""Trajectory of one simulated block: the table of its events, and its exact state at any time."""
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from attrs import field, frozen
 
+from rocking.kernels import event_kinds as kernel
 from rocking.kernels.march import resample
-from rocking.model import (
-    MAX_PHASE,
-    Outcome,
-    Overturning,
-    ReadOnlyArrays,
-    State,
-    System,
-    read_only,
-    reals,
-    refusal,
-    refuse_if,
-    within,
+from rocking.model.forcing import MAX_PHASE, Harmonic
+from rocking.model.result import ReadOnlyArrays, read_only
+from rocking.model.system import State, System
+from rocking.model.validation import reals, refusal, refuse_if, within
+from rocking.model.verdict import Outcome, Overturning
+from rocking.motion.march_loop import parameters, section_of
+
+EVENT = np.dtype(
+    [
+        ("time", "f8"),
+        ("cycle", "i8"),
+        ("phase", "f8"),
+        ("angle", "f8"),
+        ("before", "f8"),
+        ("after", "f8"),
+        ("kind", "U8"),
+    ]
 )
-from rocking.motion.event_table import absolute, events_of
-from rocking.motion.kernel_parameters import parameters
-from rocking.motion.march_loop import section_of
+KINDS = np.array(["impact", "brace", "rest", "lift-off", "lean", "leave"])
+
+
+def events_of(system: System, rows: np.ndarray, cycle_length: float, duration: float) -> np.ndarray:
+    """Return event rows of the kernel as the structured array of `Motion.events`."""
+    rows = rows[rows["event"] != kernel.NONE]
+    forcing = system.forcing
+    events = np.empty(len(rows), EVENT)
+    events["time"] = absolute(rows, cycle_length, duration)
+    if isinstance(forcing, Harmonic):
+        events["cycle"] = rows["cycle"]
+        events["phase"] = np.mod(forcing.frequency * rows["time"] + forcing.phase, 2.0 * math.pi)
+    else:
+        events["cycle"], events["phase"] = -1, math.nan
+    events["angle"] = rows["side"] * rows["angle"] + 0.0
+    events["before"] = rows["before"] + 0.0
+    events["after"] = rows["side"] * rows["velocity"] + 0.0
+    events["kind"] = KINDS[rows["event"].astype(int)]
+    return events
+
+
+def absolute(rows: np.ndarray, cycle_length: float, duration: float) -> np.ndarray:
+    """Return the times of event rows, in τ from the start."""
+    # Rounding could place the last event after the end of the run.
+    return np.minimum(rows["cycle"] * cycle_length + rows["time"], duration)
+
 
 TURN = np.dtype([("time", "f8"), ("angle", "f8")])
 

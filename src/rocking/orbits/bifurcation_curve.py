@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.model import NotebookPicture, ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.validation import instance, one_of, pair, refusal, whole
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
 from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of

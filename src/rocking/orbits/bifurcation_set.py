@@ -9,7 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import Bar, NotebookPicture, System, counted, instance, one_of, refusal, whole
+from rocking.model.progress import Bar
+from rocking.model.result import NotebookPicture
+from rocking.model.system import System
+from rocking.model.text import counted
+from rocking.model.validation import instance, one_of, refusal, whole
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch

@@ -8,17 +8,10 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import (
-    MAX_PHASE,
-    NotebookPicture,
-    Orbit,
-    ReadOnlyArrays,
-    Stability,
-    read_only,
-    refusal,
-    whole,
-    within,
-)
+from rocking.model.forcing import MAX_PHASE
+from rocking.model.orbit import Orbit, Stability
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.validation import refusal, whole, within
 from rocking.orbits.branch_rows import BranchRows
 from rocking.orbits.datasets import of_branch
 from rocking.orbits.event_chain import Chain

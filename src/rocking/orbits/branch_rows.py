@@ -6,7 +6,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from rocking.model import Orbit
+from rocking.model.orbit import Orbit
 from rocking.orbits.event_chain import Chain, orbit_of, solved, states
 
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.model import Stability, stability_of
+from rocking.model.orbit import Stability, stability_of
 from rocking.orbits.event_chain import multipliers_of
 
 POINT = np.dtype(

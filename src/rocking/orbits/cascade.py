@@ -9,16 +9,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import (
-    NotebookPicture,
-    ReadOnlyArrays,
-    counted,
-    instance,
-    plus_minus,
-    read_only,
-    refusal,
-    whole,
-)
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.text import counted, plus_minus
+from rocking.model.validation import instance, refusal, whole
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import switch_branch
 from rocking.orbits.datasets import of_cascade

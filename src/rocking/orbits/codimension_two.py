@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import Orbit, plus_minus
+from rocking.model.orbit import Orbit
+from rocking.model.text import plus_minus
 from rocking.orbits import normal_form
 from rocking.orbits.curve_ends import degenerate_end
 from rocking.orbits.curve_rows import CurveRows

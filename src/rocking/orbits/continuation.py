@@ -8,8 +8,9 @@ import numpy as np
 
 from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
-from rocking.model import Orbit, instance, one_of, refusal, refuse_if, whole
-from rocking.motion import simulate
+from rocking.model.orbit import Orbit
+from rocking.model.validation import instance, one_of, refusal, refuse_if, whole
+from rocking.motion.simulate import simulate
 from rocking.orbits import grazed_branch, resting_branch
 from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS, branch_of

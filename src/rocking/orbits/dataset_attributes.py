@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import Kind
+from rocking.model.verdict import Kind
 
 LONG_NAMES = {
     "amplitude": "amplitude of the base acceleration, A",

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import described, named, quantities
+from rocking.model.result import described, named
+from rocking.model.system import quantities
 from rocking.orbits.dataset_attributes import coordinate_of, kinds_of
 from rocking.orbits.parameter import fixed_quantities
 

@@ -14,8 +14,10 @@ from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.orbits import arclength, branch_point, chain_queries, chain_validation, floquet
 from rocking.kernels.orbits import continuation as following
 from rocking.kernels.orbits import event_chain as kernel
-from rocking.model import NO_BRACES, Orbit, OrbitEvent, State, System, quantities, refusal
-from rocking.motion import simulate
+from rocking.model.orbit import Orbit, OrbitEvent
+from rocking.model.system import NO_BRACES, State, System, quantities
+from rocking.model.validation import refusal
+from rocking.motion.simulate import simulate
 from rocking.orbits.parameter import with_value
 
 IMPACT, BRACE = event_kinds.IMPACT, event_kinds.BRACE

@@ -10,19 +10,12 @@ from attrs import evolve
 from rocking.kernels.classify import least_period
 from rocking.kernels.classify import workspace as memory
 from rocking.kernels.orbits import newton_search as kernel
-from rocking.model import (
-    NoOrbit,
-    Orbit,
-    OrbitEvent,
-    Outcome,
-    State,
-    System,
-    check_periodic,
-    instance,
-    refusal,
-    whole,
-)
-from rocking.motion import monodromy, simulate, start_march
+from rocking.model.orbit import Orbit, OrbitEvent
+from rocking.model.system import State, System, check_periodic
+from rocking.model.validation import NoOrbit, instance, refusal, whole
+from rocking.model.verdict import Outcome
+from rocking.motion.march_loop import monodromy, start_march
+from rocking.motion.simulate import simulate
 from rocking.orbits.event_chain import (
     IMPACT,
     Chain,

@@ -12,25 +12,18 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.kernels.classify import attractor_anchor
-from rocking.model import (
-    NotebookPicture,
-    Orbit,
-    Stability,
-    System,
-    counted,
-    instance,
-    pair,
-    refuse_if,
-    whole,
-    within,
-)
+from rocking.model.orbit import Orbit, Stability
+from rocking.model.result import NotebookPicture
+from rocking.model.system import System
+from rocking.model.text import counted
+from rocking.model.validation import instance, pair, refuse_if, whole, within
 from rocking.orbits.datasets import of_orbits
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts
 from rocking.orbits.orbit_registry import OrbitRegistry
 from rocking.orbits.saddle_orbits import response
-from rocking.proof import check_provable
-from rocking.proof import prove as proved
+from rocking.proof.prove import check_provable
+from rocking.proof.prove import prove as proved
 
 if TYPE_CHECKING:
     import xarray as xr

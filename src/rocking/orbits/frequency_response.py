@@ -10,26 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import (
-    MAX_AMPLITUDE,
-    Harmonic,
-    Kind,
-    Mode,
-    Orbit,
-    System,
-    exactly_one,
-    reals,
-    refusal,
-    refuse_if,
-    whole,
-    within,
-)
+from rocking.model.forcing import MAX_AMPLITUDE, Harmonic
+from rocking.model.orbit import Mode, Orbit
+from rocking.model.system import System
+from rocking.model.validation import exactly_one, reals, refusal, refuse_if, whole, within
+from rocking.model.verdict import Kind
 from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
 from rocking.orbits.frequency_response_result import MAX_CYCLES_IN_MODE, FrequencyResponse
 from rocking.orbits.parameter import check_range, check_step
-from rocking.response import classify
+from rocking.response.classify import classify
 from rocking.theory import symmetric_modes
 
 MAX_VALUES = 100_000

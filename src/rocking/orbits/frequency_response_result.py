@@ -10,7 +10,8 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import NotebookPicture, ReadOnlyArrays, described, named, read_only, whole
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.validation import whole
 from rocking.orbits.branch import Branch
 from rocking.orbits.dataset_attributes import LONG_NAMES, coordinate_of, kinds_of
 

@@ -15,8 +15,9 @@ from attrs import evolve
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.model import Orbit, State
-from rocking.motion import simulate
+from rocking.model.orbit import Orbit
+from rocking.model.system import State
+from rocking.motion.simulate import simulate
 from rocking.orbits.event_chain import (
     BRACE,
     IMPACT,

@@ -14,28 +14,20 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import (
-    Kind,
-    NotebookPicture,
-    Orbit,
-    ReadOnlyArrays,
-    State,
-    Verdict,
-    instance,
-    plus_minus,
-    read_only,
-    reals,
-    refusal,
-    within,
-)
-from rocking.motion import simulate
+from rocking.model.orbit import Orbit
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.system import State
+from rocking.model.text import plus_minus
+from rocking.model.validation import instance, reals, refusal, within
+from rocking.model.verdict import Kind, Verdict
+from rocking.motion.simulate import simulate
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.continuation import switch_branch
 from rocking.orbits.datasets import of_transition
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.grazed_branch import MEETS, PERSISTS
 from rocking.orbits.parameter import ALLOWED, with_value
-from rocking.response import budget, classify
+from rocking.response.classify import budget, classify
 
 if TYPE_CHECKING:
     import xarray as xr

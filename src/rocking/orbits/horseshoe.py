@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from rocking.model import Horseshoe, Stability, System, instance, refuse_if, whole
+from rocking.model.orbit import Stability
+from rocking.model.proof import Horseshoe
+from rocking.model.system import System
+from rocking.model.validation import instance, refuse_if, whole
 from rocking.orbits.find_orbits import MAX_PERIOD, find_orbits
-from rocking.proof import check_provable, module
+from rocking.proof.prove import check_provable, module
 
 
 def horseshoe(system: System, search: bool = False, max_period: int = 4) -> Horseshoe:
@@ -66,13 +69,13 @@ def horseshoe(system: System, search: bool = False, max_period: int = 4) -> Hors
     check_provable(system)
     if not instance("search", search, bool):
         refuse_if(system.braces is not None, "system", "have no braces without search=True", system)
-        crossing: Horseshoe = module("crossing_manifolds").horseshoe_of(system)
+        crossing: Horseshoe = module("horseshoe").tangle_of(system)
         return crossing
     max_period = whole("max_period", max_period, 1, MAX_PERIOD)
     for period in range(1, max_period + 1):  # short orbits are found sooner, and few of them suffice
         found = find_orbits(system, period)
         unstable = [orbit for orbit in found if orbit.stability is Stability.UNSTABLE]
-        shift: Horseshoe = module("words").horseshoe_of(system, unstable)
+        shift: Horseshoe = module("horseshoe").word_shift_of(system, unstable)
         if shift.proved:
             break
     return shift

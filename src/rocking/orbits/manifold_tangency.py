@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import saddle_manifold as kernel
-from rocking.model import System, instance, refusal, refuse_if
+from rocking.model.system import System
+from rocking.model.validation import instance, refusal, refuse_if
 from rocking.orbits.parameter import with_value
 from rocking.orbits.saddle_orbits import check, parameters
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.model import NO_BRACES, quantities
+from rocking.model.system import NO_BRACES, quantities
 from rocking.orbits.event_chain import BRACE, IMPACT, Chain, sides_of
 from rocking.orbits.power_series import cosine_and_sine, exponential, product, quotient
 

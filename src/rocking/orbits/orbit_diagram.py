@@ -14,20 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
-from rocking.model import (
-    MAX_PHASE,
-    State,
-    System,
-    TooManyEvents,
-    check_constant_restitution,
-    check_periodic,
-    check_progress,
-    instance,
-    one_of,
-    whole,
-    within,
-)
-from rocking.motion import start_march
+from rocking.model.forcing import MAX_PHASE
+from rocking.model.system import State, System, check_constant_restitution, check_periodic
+from rocking.model.validation import TooManyEvents, check_progress, instance, one_of, whole, within
+from rocking.motion.march_loop import start_march
 from rocking.orbits.orbit_diagram_result import OrbitDiagram
 from rocking.orbits.parameter import PARAMETERS, ordered_values, with_value
 

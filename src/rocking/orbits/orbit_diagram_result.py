@@ -8,7 +8,8 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import NotebookPicture, ReadOnlyArrays, State, System, described, named, read_only
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.system import State, System
 from rocking.orbits.dataset_attributes import coordinate_of
 from rocking.orbits.parameter import fixed_quantities
 

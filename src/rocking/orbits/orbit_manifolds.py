@@ -12,18 +12,12 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import saddle_manifold as kernel
-from rocking.model import (
-    MAX_PHASE,
-    NotebookPicture,
-    Orbit,
-    ReadOnlyArrays,
-    State,
-    instance,
-    read_only,
-    refusal,
-    within,
-)
-from rocking.motion import monodromy
+from rocking.model.forcing import MAX_PHASE
+from rocking.model.orbit import Orbit
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.system import State
+from rocking.model.validation import instance, refusal, within
+from rocking.motion.march_loop import monodromy
 from rocking.orbits.datasets import of_manifolds
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.manifold_growth import MAX_POINTS, grow, pieces, region

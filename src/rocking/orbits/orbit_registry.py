@@ -7,7 +7,8 @@ import math
 import numpy as np
 from attrs import evolve
 
-from rocking.model import Orbit, State, System
+from rocking.model.orbit import Orbit
+from rocking.model.system import State, System
 from rocking.orbits.find_orbit import orbit_from
 
 # Largest distance of two identical results of Newton's method, and of two identical orbits.

@@ -6,18 +6,9 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import (
-    RANGES,
-    Braces,
-    Harmonic,
-    System,
-    pair,
-    quantities,
-    reals,
-    refusal,
-    refuse_if,
-    within,
-)
+from rocking.model.forcing import Harmonic
+from rocking.model.system import RANGES, Braces, System, quantities
+from rocking.model.validation import pair, reals, refusal, refuse_if, within
 
 PARAMETERS = (
     "amplitude",

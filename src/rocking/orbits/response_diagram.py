@@ -8,10 +8,12 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.model import State, System, Verdict, check_periodic, check_progress, instance, one_of
+from rocking.model.system import State, System, check_periodic
+from rocking.model.validation import check_progress, instance, one_of
+from rocking.model.verdict import Verdict
 from rocking.orbits.parameter import PARAMETERS, ordered_values, with_value
 from rocking.orbits.response_diagram_result import ResponseDiagram
-from rocking.response import MeanImpacts, budget, classify, mean_impacts
+from rocking.response.classify import MeanImpacts, budget, classify, mean_impacts
 
 MAX_VALUES = 100_000
 

@@ -9,20 +9,12 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import (
-    Kind,
-    NotebookPicture,
-    ReadOnlyArrays,
-    State,
-    System,
-    Verdict,
-    described,
-    named,
-    read_only,
-)
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.system import State, System
+from rocking.model.verdict import Kind, Verdict
 from rocking.orbits.dataset_attributes import coordinate_of, kinds_of
 from rocking.orbits.parameter import fixed_quantities
-from rocking.response import RotationNumber
+from rocking.response.rotation_number import RotationNumber
 
 if TYPE_CHECKING:
     import xarray as xr

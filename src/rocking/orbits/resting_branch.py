@@ -18,8 +18,12 @@ from typing import NamedTuple
 import numpy as np
 from attrs import frozen
 
-from rocking.model import Kind, Orbit, State, System, refusal
-from rocking.motion import Motion, simulate
+from rocking.model.orbit import Orbit
+from rocking.model.system import State, System
+from rocking.model.validation import refusal
+from rocking.model.verdict import Kind
+from rocking.motion.motion import Motion
+from rocking.motion.simulate import simulate
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.branch_halves import Half, joined
 from rocking.orbits.branch_result import ENDS
@@ -27,7 +31,7 @@ from rocking.orbits.branch_table import POINT
 from rocking.orbits.event_chain import End, clocked
 from rocking.orbits.find_orbit import SAME, orbit_from
 from rocking.orbits.parameter import value_of, with_value
-from rocking.response import classify
+from rocking.response.classify import classify
 
 NARROW = 1e-13
 """Width of a bracket of a special point at which the bisection ends, relative to the range."""

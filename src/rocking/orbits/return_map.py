@@ -12,8 +12,12 @@ from typing import NamedTuple
 import numpy as np
 from attrs import evolve, frozen
 
-from rocking.model import Orbit, Outcome, State, System, check_start
-from rocking.motion import Motion, monodromy, simulate
+from rocking.model.orbit import Orbit
+from rocking.model.system import State, System, check_start
+from rocking.model.verdict import Outcome
+from rocking.motion.march_loop import monodromy
+from rocking.motion.motion import Motion
+from rocking.motion.simulate import simulate
 from rocking.orbits.event_chain import clocked, multipliers_of, quiet_phase
 from rocking.orbits.find_orbit import RESTING, orbit_from
 from rocking.orbits.parameter import with_value

@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rocking.model import Orbit, refusal, stability_of
+from rocking.model.orbit import Orbit, stability_of
+from rocking.model.validation import refusal
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.branch_halves import Half, joined
 from rocking.orbits.branch_result import ENDS

@@ -11,7 +11,10 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import saddle_manifold as kernel
-from rocking.model import MAX_PHASE, NotebookPicture, ReadOnlyArrays, System, read_only, whole, within
+from rocking.model.forcing import MAX_PHASE
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.system import System
+from rocking.model.validation import whole, within
 from rocking.orbits.manifold_growth import grow, pieces, region
 from rocking.orbits.saddle_orbits import check, parameters, response, saddle, too_many_impacts
 

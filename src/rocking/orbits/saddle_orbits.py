@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.march import march
-from rocking.model import OrbitEvent, State, System, TooManyEvents, instance, refusal, refuse_if
-from rocking.motion import start_march
+from rocking.model.orbit import OrbitEvent
+from rocking.model.system import State, System
+from rocking.model.validation import TooManyEvents, instance, refusal, refuse_if
+from rocking.motion.march_loop import start_march
 from rocking.theory import saddle_orbit
 
 # Largest distance of a state from the saddle orbit that it belongs to.

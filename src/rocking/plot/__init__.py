@@ -6,34 +6,30 @@ Without an Axes, a function makes a figure, which a notebook shows. In a script 
 belongs to pyplot: `plt.show` shows it, and it stays open until `plt.close`.
 """
 
-from rocking.model import (
+from rocking.model import result
+from rocking.model.record_results import Fragility, IncrementalDynamicAnalysis, OverturningSet
+from rocking.model.survey_results import (
     BasinMap,
     ChaosShare,
-    Fragility,
-    IncrementalDynamicAnalysis,
     OverturningCurve,
-    OverturningSet,
     Repeatability,
     RepeatabilityMap,
     SafeBasin,
-    Verdict,
-    explain,
-    notebook_renderers,
 )
-from rocking.motion import Motion
-from rocking.orbits import (
-    BifurcationCurve,
-    BifurcationSet,
-    Branch,
-    Cascade,
-    FrequencyResponse,
-    GrazingTransition,
-    OrbitDiagram,
-    OrbitManifolds,
-    Orbits,
-    ResponseDiagram,
-    SaddleManifolds,
-)
+from rocking.model.validation import explain
+from rocking.model.verdict import Verdict
+from rocking.motion.motion import Motion
+from rocking.orbits.bifurcation_curve import BifurcationCurve
+from rocking.orbits.bifurcation_set import BifurcationSet
+from rocking.orbits.branch import Branch
+from rocking.orbits.cascade import Cascade
+from rocking.orbits.find_orbits import Orbits
+from rocking.orbits.frequency_response_result import FrequencyResponse
+from rocking.orbits.grazing_transition import GrazingTransition
+from rocking.orbits.orbit_diagram_result import OrbitDiagram
+from rocking.orbits.orbit_manifolds import OrbitManifolds
+from rocking.orbits.response_diagram_result import ResponseDiagram
+from rocking.orbits.saddle_manifolds import SaddleManifolds
 from rocking.plot import palette as palette
 from rocking.plot.animation import animation
 from rocking.plot.basins import basins
@@ -75,7 +71,9 @@ from rocking.plot.thresholds import thresholds
 from rocking.plot.time_history import time_history
 from rocking.plot.verdict import untitled, verdict
 from rocking.plot.zoomable_map import tiles
-from rocking.response import CorrelationDimension, LyapunovSpectrum, SpectralDensity
+from rocking.response.correlation_dimension import CorrelationDimension
+from rocking.response.lyapunov import LyapunovSpectrum
+from rocking.response.spectrum import SpectralDensity
 
 __all__ = [
     "animation",
@@ -150,6 +148,6 @@ for kind, draw in (
     (RepeatabilityMap, repeatability_map),
     ("map", parametric_map),
 ):
-    notebook_renderers.register(kind, picture(draw))
+    result.register(kind, picture(draw))
 
 explain(globals(), __all__)

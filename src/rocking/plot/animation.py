@@ -13,8 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
-from rocking.model import Block, Outcome, System, instance, within
-from rocking.motion import Motion, has_cycles, time_of_fall
+from rocking.model.block import Block
+from rocking.model.system import System
+from rocking.model.validation import instance, within
+from rocking.model.verdict import Outcome
+from rocking.motion.motion import Motion, has_cycles, time_of_fall
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
 from rocking.plot.parts.base_displacement import base_displacement

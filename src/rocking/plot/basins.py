@@ -9,7 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
-from rocking.model import Attractor, BasinMap, Block, Kind, instance, percent
+from rocking.model.block import Block
+from rocking.model.survey_results import Attractor, BasinMap
+from rocking.model.text import percent
+from rocking.model.validation import instance
+from rocking.model.verdict import Kind
 from rocking.plot.parametric_map import MAX_DRAWN
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter

@@ -5,8 +5,9 @@ from typing import Any
 
 from matplotlib.axes import Axes
 
-from rocking.model import Block, refuse_if
-from rocking.orbits import BifurcationCurve
+from rocking.model.block import Block
+from rocking.model.validation import refuse_if
+from rocking.orbits.bifurcation_curve import BifurcationCurve
 from rocking.plot import palette
 from rocking.plot.parts import codimension_two, style
 from rocking.plot.parts.axis_units import parameter

@@ -3,8 +3,9 @@
 from matplotlib.axes import Axes
 from matplotlib.patheffects import Normal, Stroke
 
-from rocking.model import Block, instance
-from rocking.orbits import BifurcationSet
+from rocking.model.block import Block
+from rocking.model.validation import instance
+from rocking.orbits.bifurcation_set import BifurcationSet
 from rocking.plot.bifurcation_curve import LOOKS
 from rocking.plot.parts import codimension_two, style
 from rocking.plot.parts.axis_units import parameter

@@ -7,8 +7,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
 
-from rocking.model import MAX_PHASE, Block, Stability, one_of, refusal, within
-from rocking.orbits import Branch
+from rocking.model.block import Block
+from rocking.model.forcing import MAX_PHASE
+from rocking.model.orbit import Stability
+from rocking.model.validation import one_of, refusal, within
+from rocking.orbits.branch import Branch
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
 

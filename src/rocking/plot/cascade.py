@@ -3,8 +3,9 @@
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, instance, refusal
-from rocking.orbits import Cascade
+from rocking.model.block import Block
+from rocking.model.validation import instance, refusal
+from rocking.orbits.cascade import Cascade
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 

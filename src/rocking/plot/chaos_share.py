@@ -6,7 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from rocking.model import ChaosShare, Kind, instance
+from rocking.model.survey_results import ChaosShare
+from rocking.model.validation import instance
+from rocking.model.verdict import Kind
 from rocking.plot.parts import style
 from rocking.plot.parts.legend import COLOURS
 

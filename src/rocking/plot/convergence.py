@@ -5,10 +5,12 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, instance, plus_minus, whole
+from rocking.model.block import Block
+from rocking.model.text import plus_minus
+from rocking.model.validation import instance, whole
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import Quantities, quantities
-from rocking.response import LyapunovSpectrum
+from rocking.response.lyapunov import LyapunovSpectrum
 
 
 def convergence(

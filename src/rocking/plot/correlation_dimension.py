@@ -2,9 +2,10 @@
 
 from matplotlib.axes import Axes
 
-from rocking.model import counted, instance, refusal
+from rocking.model.text import counted
+from rocking.model.validation import instance, refusal
 from rocking.plot.parts import style
-from rocking.response import CorrelationDimension
+from rocking.response.correlation_dimension import CorrelationDimension
 
 
 def correlation_dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:

@@ -9,7 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from rocking.model import Fragility, LognormalFit, counted, instance, refuse_if
+from rocking.model.record_results import Fragility, LognormalFit
+from rocking.model.text import counted
+from rocking.model.validation import instance, refuse_if
 from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.intensity import level_label, limit_label

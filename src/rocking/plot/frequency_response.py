@@ -5,8 +5,11 @@ from itertools import cycle
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, Kind, Stability, instance
-from rocking.orbits import FrequencyResponse
+from rocking.model.block import Block
+from rocking.model.orbit import Stability
+from rocking.model.validation import instance
+from rocking.model.verdict import Kind
+from rocking.orbits.frequency_response_result import FrequencyResponse
 from rocking.plot import palette
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import instance, refusal
-from rocking.orbits import GrazingTransition
+from rocking.model.validation import instance, refusal
+from rocking.orbits.grazing_transition import GrazingTransition
 from rocking.plot.parts import style
 
 

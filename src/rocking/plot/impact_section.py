@@ -6,11 +6,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator
 
-from rocking.model import Block, refusal, refuse_if, whole
-from rocking.motion import Motion
+from rocking.model.block import Block
+from rocking.model.validation import refusal, refuse_if, whole
+from rocking.motion.motion import Motion
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
-from rocking.response import impact_section as impacts_of
+from rocking.response.impact_section import impact_section as impacts_of
 
 SIDES = ((1, r"onto $\Theta > 0$", style.MOTION), (-1, r"onto $\Theta < 0$", style.IMPACT))
 QUARTERS = ("0", r"$\pi/2$", r"$\pi$", r"$3\pi/2$", r"$2\pi$")

@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import FRACTILES, IncrementalDynamicAnalysis, checked_fractions, counted, instance, refusal
+from rocking.model.record_results import FRACTILES, IncrementalDynamicAnalysis, checked_fractions
+from rocking.model.text import counted
+from rocking.model.validation import instance, refusal
 from rocking.plot.parts import style
 from rocking.plot.parts.intensity import level_label
 

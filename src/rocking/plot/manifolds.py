@@ -3,8 +3,9 @@
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, instance
-from rocking.orbits import SaddleManifolds
+from rocking.model.block import Block
+from rocking.model.validation import instance
+from rocking.orbits.saddle_manifolds import SaddleManifolds
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
 from rocking.plot.section import at_phase

@@ -5,7 +5,9 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import MAX_AMPLITUDE, PERIODS, Block, within
+from rocking.model.block import Block
+from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
+from rocking.model.validation import within
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
 from rocking.theory import (

@@ -7,7 +7,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from rocking.model import MAX_AMPLITUDE, PERIODS, Block, Mode, one_of, within
+from rocking.model.block import Block
+from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
+from rocking.model.orbit import Mode
+from rocking.model.validation import one_of, within
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
 from rocking.theory import (

@@ -6,8 +6,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patheffects import Normal, Stroke
 
-from rocking.model import Block, Kind, Stability, instance, members, one_of, refusal
-from rocking.orbits import Branch, OrbitDiagram
+from rocking.model.block import Block
+from rocking.model.orbit import Stability
+from rocking.model.validation import instance, members, one_of, refusal
+from rocking.model.verdict import Kind
+from rocking.orbits.branch import Branch
+from rocking.orbits.orbit_diagram_result import OrbitDiagram
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
 from rocking.plot.parts.legend import COLOURS

@@ -3,8 +3,9 @@
 from matplotlib.axes import Axes
 from matplotlib.patheffects import Normal, Stroke
 
-from rocking.model import Block, instance
-from rocking.orbits import OrbitManifolds
+from rocking.model.block import Block
+from rocking.model.validation import instance
+from rocking.orbits.orbit_manifolds import OrbitManifolds
 from rocking.plot.bifurcation_set import EDGE
 from rocking.plot.manifolds import STABLE, UNSTABLE
 from rocking.plot.parts import style

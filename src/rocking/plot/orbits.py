@@ -3,8 +3,11 @@
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import MAX_PHASE, Block, Stability, instance, within
-from rocking.orbits import Orbits
+from rocking.model.block import Block
+from rocking.model.forcing import MAX_PHASE
+from rocking.model.orbit import Stability
+from rocking.model.validation import instance, within
+from rocking.orbits.find_orbits import Orbits
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
 from rocking.plot.section import at_phase

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, OverturningCurve, instance, refusal
+from rocking.model.block import Block
+from rocking.model.survey_results import OverturningCurve
+from rocking.model.validation import instance, refusal
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 

@@ -6,7 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
-from rocking.model import OverturningSet, instance
+from rocking.model.record_results import OverturningSet
+from rocking.model.validation import instance
 from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.names import shortened

@@ -9,7 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
-from rocking.model import Block, Outcome, refusal
+from rocking.model.block import Block
+from rocking.model.validation import refusal
+from rocking.model.verdict import Outcome
 from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter

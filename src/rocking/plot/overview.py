@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from rocking.model import Block, Harmonic, Outcome, instance
-from rocking.motion import Motion, has_cycles
+from rocking.model.block import Block
+from rocking.model.forcing import Harmonic
+from rocking.model.validation import instance
+from rocking.model.verdict import Outcome
+from rocking.motion.motion import Motion, has_cycles
 from rocking.plot.parts import figures, style
 from rocking.plot.parts.axis_units import quantities
 from rocking.plot.parts.sample_times import settled

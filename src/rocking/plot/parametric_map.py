@@ -12,7 +12,8 @@ from matplotlib.colors import BoundaryNorm, ListedColormap, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from rocking.model import Block, percent
+from rocking.model.block import Block
+from rocking.model.text import percent
 from rocking.plot import palette
 from rocking.plot.parts import style, theory_curves
 from rocking.plot.parts.axis_units import parameter

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from rocking.model import Block
-from rocking.motion import Motion
+from rocking.model.block import Block
+from rocking.motion.motion import Motion
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import Quantities, quantities
 from rocking.plot.parts.sample_times import inside, trace, window

@@ -9,7 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
-from rocking.model import Kind, Repeatability, RepeatabilityMap, instance, percent
+from rocking.model.survey_results import Repeatability, RepeatabilityMap
+from rocking.model.text import percent
+from rocking.model.validation import instance
+from rocking.model.verdict import Kind
 from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import PARAMETERS

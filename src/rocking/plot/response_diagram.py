@@ -7,8 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from rocking.model import Block, instance
-from rocking.orbits import ResponseDiagram
+from rocking.model.block import Block
+from rocking.model.validation import instance
+from rocking.orbits.response_diagram_result import ResponseDiagram
 from rocking.plot.parts import branch_lines, figures, style
 from rocking.plot.parts.axis_units import parameter, quantities
 from rocking.plot.parts.legend import LOOKS, Look, looks

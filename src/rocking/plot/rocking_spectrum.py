@@ -11,7 +11,9 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from rocking.model import INTENSITIES, counted, one_of, refusal
+from rocking.model.record_set import INTENSITIES
+from rocking.model.text import counted
+from rocking.model.validation import one_of, refusal
 from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.map_levels import edges

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, SafeBasin, instance
+from rocking.model.block import Block
+from rocking.model.survey_results import SafeBasin
+from rocking.model.validation import instance
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 

@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Polygon, Rectangle
 from numpy.typing import NDArray
 
-from rocking.model import Block, instance, within
+from rocking.model.block import Block
+from rocking.model.validation import instance, within
 from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.film_scene import corners

@@ -6,8 +6,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import MAX_PHASE, Block, reals, refusal, refuse_if, whole, within
-from rocking.motion import Motion
+from rocking.model.block import Block
+from rocking.model.forcing import MAX_PHASE
+from rocking.model.validation import reals, refusal, refuse_if, whole, within
+from rocking.motion.motion import Motion
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
 

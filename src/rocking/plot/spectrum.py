@@ -6,10 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullLocator
 
-from rocking.model import Block, instance, whole, within
+from rocking.model.block import Block
+from rocking.model.validation import instance, whole, within
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
-from rocking.response import Peak, SpectralDensity
+from rocking.response.spectrum import Peak, SpectralDensity
 
 DECADES = 10
 ROOM_FOR_NAMES = 0.3

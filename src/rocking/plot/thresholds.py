@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import Block, reals, refusal, refuse_if
+from rocking.model.block import Block
+from rocking.model.validation import reals, refusal, refuse_if
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 

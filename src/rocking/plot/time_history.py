@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, Outcome, PiecewiseLinear, System
-from rocking.motion import Motion, fallen, has_cycles
+from rocking.model.block import Block
+from rocking.model.forcing import PiecewiseLinear
+from rocking.model.system import System
+from rocking.model.verdict import Outcome
+from rocking.motion.motion import Motion, fallen, has_cycles
 from rocking.plot.parts import figures, style
 from rocking.plot.parts.axis_units import Quantities, quantities
 from rocking.plot.parts.sample_times import SAMPLES_PER_PICTURE, trace, window

@@ -13,8 +13,12 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
-from rocking.model import Block, Kind, Orbit, Outcome, State, TooManyEvents, Verdict, instance
-from rocking.motion import simulate
+from rocking.model.block import Block
+from rocking.model.orbit import Orbit
+from rocking.model.system import State
+from rocking.model.validation import TooManyEvents, instance
+from rocking.model.verdict import Kind, Outcome, Verdict
+from rocking.motion.simulate import simulate
 from rocking.plot.parts import figures, style
 from rocking.plot.parts.axis_units import quantities
 from rocking.plot.parts.legend import look_of

@@ -15,7 +15,10 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from PIL import Image
 
-from rocking.model import TILES, VERSION, Block, percent, replacing_folder
+from rocking.model.block import Block
+from rocking.model.files import TILES, replacing_folder
+from rocking.model.package import VERSION
+from rocking.model.text import percent
 from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter

@@ -1,19 +1,96 @@
-"""Arc in balls: the closed form of u = side * angle, Eq. (5) of Yim & Lin (1991), and the proof that it meets nothing on its way.
+"""Arc in balls: the closed form of u = side * angle, Eq. (5) of Yim & Lin (1991), and the proof that it meets no event before a time.
 
-On one side u'' = u - 1 - side A cos psi, so that
-
-    u = 1 + side beta cos psi + grow e^s + shrink e^-s,  psi = psi0 + frequency s.
+A ball is a real number with a rigorous bound of its error (F. Johansson, Arb, 2017).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
+from functools import reduce
 from typing import NamedTuple
 
-from flint import arb
+from flint import arb, ctx
 
-from rocking.proof.balls import Balls, hull, largest
+from rocking.kernels.event_kinds import BRACE
+from rocking.model.system import System
+
+
+class Refused(Exception):
+    """A condition of a proof is not shown; the text names it."""
+
+
+class TooLong(Refused):
+    """A motion is followed too long; more digits do not help."""
+
+
+class Balls(NamedTuple):
+    """Parameters of a slender block under a harmonic base motion."""
+
+    amplitude: arb
+    frequency: arb
+    response: arb  # beta = A/(1 + frequency^2)
+    restitution: arb
+    brace_angle: arb | None
+    brace_restitution: arb
+
+
+def balls_of(system: System, widths: Mapping[str, float]) -> Balls:
+    """Return the parameters of a system: the doubles that were given, exactly, or with half-widths by name.
+
+    A frequency follows from its period in balls.
+    """
+    forcing, braces = system.periodic, system.braces
+    name, value = forcing.given
+
+    def number(which: str, middle: float) -> arb:
+        return arb(middle, widths.get(which, 0.0))
+
+    amplitude, frequency = number("amplitude", forcing.amplitude), number(name, value)
+    if name == "period":
+        frequency = 2 * arb.pi() / frequency
+    return Balls(
+        amplitude,
+        frequency,
+        amplitude / (1 + frequency * frequency),
+        number("restitution", system.restitution),
+        None if braces is None else number("brace_angle", braces.angle),
+        arb(1) if braces is None else number("brace_restitution", braces.restitution),
+    )
+
+
+def hull(low: arb, high: arb) -> arb:
+    """Return a ball that contains all numbers between two balls."""
+    return low.union(high)
+
+
+def largest(values: Iterable[arb]) -> arb:
+    """Return a ball that contains the largest of some numbers."""
+    return reduce(arb.max, values)
+
+
+def least(values: Iterable[arb]) -> arb:
+    """Return a ball that contains the least of some numbers."""
+    return reduce(arb.min, values)
+
+
+def above(value: arb) -> float:
+    """Return a double that is not below any number of a ball."""
+    return math.nextafter(float(value.upper()), math.inf)
+
+
+def below(value: arb) -> float:
+    """Return a double that is not above any number of a ball."""
+    return math.nextafter(float(value.lower()), -math.inf)
+
+
+def whole(value: arb) -> int:
+    """Return the only whole number in a ball; raise Refused if there is none, or several."""
+    number = value.unique_fmpz()
+    if number is None:
+        raise Refused("the number of half turns of the forcing phase is not decided")
+    return int(number)
+
 
 # Number of times that an interval is halved before a proof is given up.
 DEPTH = 60
@@ -141,3 +218,91 @@ def positive_over(function: Function, low: arb, high: arb, over: Values, order: 
     half = largest([(high - middle).abs_upper(), (middle - low).abs_upper()])
     at = function(middle)
     return bool(at.value - abs(at.first) * half - over.second.abs_upper() * half * half / 2 > 0)
+
+
+# Steps of Newton's method in double precision, and in balls; trials of an interval around the zero.
+STEPS, EXACT, WIDER = 20, 12, 12
+
+
+class Search(NamedTuple):
+    """Search on an arc for an event of a kind: an impact, or a hit on a brace."""
+
+    arc: Arc
+    event: int
+
+    @property
+    def function(self) -> Function:
+        """Distance from the base or the brace, which is positive at first."""
+        return self.arc.below_brace if self.event == BRACE else self.arc.at
+
+    def height(self, time: arb) -> arb:
+        """Return the value of the function."""
+        angle = self.arc.angle(time)
+        return (
+            angle if self.event != BRACE or self.arc.p.brace_angle is None else self.arc.p.brace_angle - angle
+        )
+
+    def first(self, low: arb, high: arb, order: int) -> arb | None:
+        """Return the time of the first zero in [low, high]; None if there is none.
+
+        The function is positive at ``low``, or has a zero of an ``order`` there and is positive just after it.
+        """
+        bracket = self.bracket(low, high, self.height(high), order, 0)
+        return None if bracket is None else self.time(*bracket)
+
+    def bracket(self, low: arb, high: arb, end: arb, order: int, depth: int) -> tuple[arb, arb] | None:
+        """Return an interval that contains the first zero and no other; the function has the value ``end`` at ``high``."""
+        over = self.function(hull(low, high))
+        if end > 0 and positive_over(self.function, low, high, over, order, False):
+            return None
+        if not order and over.first < 0 and end < 0:
+            return low, high
+        if depth >= DEPTH:
+            raise Refused(
+                "whether an event comes is not decided: the motion nearly touches the base or a brace"
+            )
+        middle = ((low + high) / 2).mid()
+        found = self.bracket(low, middle, self.height(middle), order, depth + 1)
+        return self.bracket(middle, high, end, 0, depth + 1) if found is None else found
+
+    def time(self, low: arb, high: arb) -> arb:
+        """Return the time of the only zero in an interval where the function falls.
+
+        For an interval X around m, let N = m - f(m)/f'(X). If N lies inside X, it contains a zero. If m lies in the given interval,
+        the function falls over both intervals together, so that this is the zero.
+        """
+        middle, small = arb(self.guess(float(low), float(high))), 2.0 ** (-ctx.prec // 2)
+        for _ in range(EXACT):
+            here = self.function(middle)
+            if not here.first < 0 or abs(float(here.value)) < small or here.value.contains(0):
+                break
+            middle = (middle - here.value / here.first).mid()
+        if not (low <= middle and middle <= high):
+            raise Refused("the time of an event is not enclosed")
+        width = 2 * abs(here.value / here.first).upper() + abs(middle) * arb(2) ** (8 - ctx.prec)
+        for _ in range(WIDER):
+            around = hull(middle - width, middle + width)
+            slope = self.function(around).first
+            if slope < 0:
+                found = middle - here.value / slope
+                if around.contains_interior(found):
+                    return found
+            width *= 4
+        raise Refused("the time of an event is not enclosed")
+
+    def guess(self, low: float, high: float) -> float:
+        """Return the time of the zero in double precision: Newton's method with bisection."""
+        values, brace = self.arc.in_double(), self.arc.p.brace_angle
+        level, sign = (0.0, 1.0) if self.event != BRACE or brace is None else (float(brace), -1.0)
+        time = 0.5 * (low + high)
+        for _ in range(STEPS):
+            angle, rate = values(time)
+            height, slope = sign * (angle - level), sign * rate
+            low, high = (time, high) if height > 0.0 else (low, time)
+            ahead = time - height / slope if slope < 0.0 else low
+            if not low < ahead < high:
+                ahead = 0.5 * (low + high)
+            if abs(ahead - time) <= 1e-15 * ahead:
+                break
+            time = ahead
+        return ahead

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat
 
-from rocking.model import Orbit
-from rocking.proof.balls import Balls, Refused, TooLong, above, below, largest, whole
+from rocking.model.orbit import Orbit
+from rocking.proof.arc import Balls, Refused, TooLong, above, below, largest, whole
 from rocking.proof.periodic import Enclosed
 from rocking.proof.sets import States, as_set, doubles, renewed, sets_on_sections, states_on_sections, turn
 from rocking.proof.trajectory import State

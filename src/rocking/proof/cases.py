@@ -10,11 +10,12 @@ from attrs import evolve
 from flint import acb, arb, ctx
 
 from rocking.kernels.event_kinds import BRACE, IMPACT
-from rocking.model import Orbit, Proof, Verdict, orbit_in_words
-from rocking.proof import attraction, periodic, reset, stability, trajectory
-from rocking.proof.balls import Balls, Refused, TooLong, above, balls_of, below
-from rocking.proof.orbit_chain import chain_of
-from rocking.proof.periodic import Enclosed
+from rocking.model.orbit import Orbit, orbit_in_words
+from rocking.model.proof import Proof
+from rocking.model.verdict import Verdict
+from rocking.proof import attraction, periodic, trajectory
+from rocking.proof.arc import Balls, Refused, TooLong, above, balls_of, below
+from rocking.proof.periodic import Enclosed, chain_of
 
 PRECISIONS = (128, 256, 512, 1024, 2048, 4096)
 """Bits of the numbers: the next one after a refusal."""
@@ -61,8 +62,8 @@ def _first(precisions: Iterable[int], attempt: Callable[[], Result]) -> Result:
 def _by_its_events(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     chain = chain_of(orbit)
     proved = periodic.enclosed(p, chain)
-    first, second = stability.multipliers(proved.trace, proved.determinant, chain.mirrored)
-    stable = stability.stable(proved.trace, proved.determinant)
+    first, second = periodic.multipliers(proved.trace, proved.determinant, chain.mirrored)
+    stable = periodic.stable(proved.trace, proved.determinant)
     words = {True: "it is stable", False: "it is unstable", None: "its stability is not proved"}[stable]
     phases = tuple(
         (float(middle), above(abs(psi - float(middle))))
@@ -102,7 +103,7 @@ def _resting(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     turns_there = (arb(orbit.phase) - trajectory.release(p, 0).phase) / arb.pi()
     if orbit.state.velocity != 0.0 or not abs(turns_there - round(float(turns_there))) < LIKE:
         raise Refused("the orbit does not begin with a release from rest")
-    turns = reset.turns_of_reset(p)
+    turns = periodic.turns_of_reset(p)
     symmetric = turns % 2 == 1
     period = turns if symmetric else turns // 2
     if (symmetric, period) != (orbit.symmetric, orbit.period):
@@ -187,7 +188,7 @@ def _released_alike(widths: Mapping[str, float], verdict: Verdict) -> int:
     The mirror image of the orbit is another orbit, unless the orbit is symmetric.
     """
     p = balls_of(verdict.system, widths)
-    half_turns = reset.next_release(p, trajectory.initial(p, verdict.system.periodic.phase, verdict.start))
+    half_turns = periodic.next_release(p, trajectory.initial(p, verdict.system.periodic.phase, verdict.start))
     assert verdict.orbit is not None
     if (half_turns - _resting_half_turns(p, verdict)) % (1 if verdict.orbit.symmetric else 2):
         raise Refused("the motion leads to the mirror image of the orbit")

@@ -14,8 +14,7 @@ import numpy as np
 from flint import arb, arb_mat
 
 from rocking.kernels.event_kinds import BRACE, IMPACT
-from rocking.proof.arc import Arc, arc_from
-from rocking.proof.balls import Balls
+from rocking.proof.arc import Arc, Balls, arc_from
 
 
 class Chain(NamedTuple):

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat, ctx
 
-from rocking.proof.balls import Refused, above, largest
+from rocking.proof.arc import Refused, above, largest
 
 # Largest number of steps of Newton's method with a fixed inverse.
 STEPS = 80

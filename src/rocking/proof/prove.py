@@ -6,18 +6,12 @@ from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
-from rocking.model import (
-    Orbit,
-    Proof,
-    System,
-    Verdict,
-    check_start,
-    instance,
-    refusal,
-    refuse_if,
-    require_extra,
-    within,
-)
+from rocking.model.orbit import Orbit
+from rocking.model.package import require_extra
+from rocking.model.proof import Proof
+from rocking.model.system import System, check_start
+from rocking.model.validation import instance, refusal, refuse_if, within
+from rocking.model.verdict import Verdict
 
 MAX_HALF_WIDTH = 1.0
 

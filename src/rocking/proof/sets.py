@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat
 
-from rocking.proof.balls import Balls, Refused, largest
+from rocking.proof.arc import Balls, Refused, largest
 from rocking.proof.chain import law
 from rocking.proof.trajectory import (
     State,

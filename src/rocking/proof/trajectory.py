@@ -11,11 +11,9 @@ from typing import NamedTuple
 from flint import arb, arb_mat
 
 from rocking.kernels.event_kinds import BRACE, IMPACT
-from rocking.model import State as InitialState
-from rocking.proof.arc import Arc, arc_from
-from rocking.proof.balls import Balls, Refused, hull, largest, least, whole
+from rocking.model.system import State as InitialState
+from rocking.proof.arc import Arc, Balls, Refused, Search, arc_from, hull, largest, least, whole
 from rocking.proof.chain import law, place
-from rocking.proof.search import Search
 
 # Longest window of the search for an event, in forcing cycles and in time. No simple part of a cycle: many events lie there.
 CYCLES, LONGEST = 0.37, 1.0

@@ -8,14 +8,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.model import counted, shown
-from rocking.records.channel import Channel, RecordError
-from rocking.records.text_file import MAX_SAMPLES, NUMBER, TextFile
-from rocking.records.units import (
+from rocking.model.text import counted, shown
+from rocking.records.text_file import (
     IN_BRACKETS,
+    MAX_SAMPLES,
+    NUMBER,
     OTHER_TIMES,
     SEPARATOR,
     TIMES,
+    Channel,
+    RecordError,
+    TextFile,
     cells,
     header_units,
     is_line_of_units,

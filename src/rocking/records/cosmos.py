@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from rocking.records.channel import Channel
-from rocking.records.text_file import TextFile
+from rocking.records.text_file import Channel, TextFile
 
 INTEGERS = r"^\s*(\d+)\s+Integer-header values follow"
 REALS = r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines,\s*Format\s*=\s*\((\d+)[EF](\d+)\.\d+\)"

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from rocking.records.channel import Channel
-from rocking.records.text_file import TextFile
+from rocking.records.text_file import Channel, TextFile
 
 NEEDED = ("SAMPLING_INTERVAL_S", "NDATA", "UNITS")
 

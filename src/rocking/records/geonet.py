@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rocking.records.channel import Channel
-from rocking.records.text_file import TextFile
+from rocking.records.text_file import Channel, TextFile
 
 TITLE = r"^\s*(Unc|C)orrected accelerogram.*GNS Science"
 TEXT, NUMBERS = 16, 10

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from rocking.model import counted
-from rocking.records.channel import Channel
-from rocking.records.text_file import SEPARATE, TextFile
+from rocking.model.text import counted
+from rocking.records.text_file import SEPARATE, Channel, TextFile
 
 HEADER = 17
 SCALE = r"^Scale Factor\s+(\S+?)\(gal\)/(\S+)"

@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import missing_extra
-from rocking.records.channel import TEXTS, Channel, RecordError
-from rocking.records.content import Content
+from rocking.model.package import missing_extra
+from rocking.records.text_file import TEXTS, Channel, Content, RecordError
 
 FORMATS = ("MSEED", "SAC", "SACXY", "KINEMETRICS_EVT", "GSE2")
 """Formats of ObsPy that are tried. Each is named, because its search for the format also unpickles a file."""

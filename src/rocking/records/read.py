@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 import os
+import pickle
+import subprocess
+import sys
+from contextlib import suppress
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from rocking.model import (
-    BASELINES,
-    STEPS,
-    GroundMotion,
-    RecordFile,
-    one_of,
-    pga_doubt,
-    refusal,
-    warn_of_input,
-    whole,
-    within,
-)
+from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion, RecordFile, pga_doubt
+from rocking.model.validation import one_of, refusal, warn_of_input, whole, within
 from rocking.records import columns, cosmos, csmip, esm, geonet, knet, obspy_streams, peer, smc
-from rocking.records.channel import Channel, RecordError
-from rocking.records.content import Content
-from rocking.records.text_file import TextFile
-from rocking.records.units import UNITS, given_unit
+from rocking.records.text_file import UNITS, Channel, Content, RecordError, TextFile, given_unit
 
 FORMATS: tuple[Any, ...] = (cosmos, smc, esm, geonet, knet, peer, csmip, columns)
 """Readers in the order in which they are tried; any text of numbers has columns."""
@@ -285,3 +277,74 @@ def _stated(place: str, argument: str, stated: Any, given: Any, what: str, examp
     if stated is not None and given is not None:
         raise RecordError(f"{place}: the file states {what}, {stated}; do not give {argument}")
     return given if stated is None else stated
+
+
+MAX_MEMORY = 4 << 30
+"""Largest address space of the process in bytes, where the operating system has such a limit."""
+
+
+def read_apart(data: bytes, seconds: float, **given: Any) -> list[tuple[GroundMotion, list[str]]]:
+    """Read all channels of a file in memory as `read_with_doubts` does; `RecordError` if it takes longer than `seconds`."""
+    # The same modules as here, and one thread: each thread of OpenBLAS takes address space.
+    same = {"PYTHONPATH": os.pathsep.join(sys.path), "OPENBLAS_NUM_THREADS": "1"}
+    try:
+        done = subprocess.run(
+            [sys.executable, "-P", "-c", f"from {__name__} import answer; answer()"],
+            input=pickle.dumps((data, given, MAX_MEMORY)),
+            capture_output=True,
+            timeout=seconds,
+            env=os.environ | same,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        raise RecordError(f"reading takes longer than {seconds:g} s: give a shorter file") from None
+    if done.returncode:
+        raise RuntimeError(done.stderr.decode(errors="replace"))
+    found: list[tuple[GroundMotion, list[str]]] | Exception = pickle.loads(done.stdout)
+    if isinstance(found, Exception):
+        raise found
+    return found
+
+
+def answer() -> None:
+    """Read the file that comes on stdin, and write its channels, or the error, on stdout."""
+    data, given, memory = pickle.load(sys.stdin.buffer)
+    with suppress(ImportError, ValueError, OSError):  # no such limit on Windows; a lower one stays
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    found: list[tuple[GroundMotion, list[str]]] | Exception
+    try:
+        found = read_with_doubts(data, **given)
+    except MemoryError:
+        found = RecordError(f"reading takes more than {memory >> 20:,} MB of memory: give a shorter file")
+    except (ValueError, TypeError) as error:
+        found = error
+    sys.stdout.buffer.write(pickle.dumps(found))
+
+
+FILE = Path(__file__).with_name("0111a.smc")
+
+
+def example_ground_motion() -> GroundMotion:
+    """Return a record of the Loma Prieta earthquake of 1989: San Francisco, 1295 Shafter, component 360°.
+
+    An instrument of the US Geological Survey recorded it: Open-File Report 89-568, in the public domain.
+
+    Returns
+    -------
+    GroundMotion
+        30 s with a PGA of 1.04 m/s².
+
+    See Also
+    --------
+    read_ground_motion : The motion in a file of your own.
+    synthetic_ground_motions : Motions that no instrument recorded.
+
+    Examples
+    --------
+    >>> motion = example_ground_motion()
+    >>> motion.file.name, motion.component, round(motion.pga, 4), motion.duration
+    ('0111a.smc', '360°', 1.0441, 30.0)
+    """
+    return read_ground_motion(FILE)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from rocking.records.channel import Channel, Peak
-from rocking.records.text_file import TextFile
+from rocking.records.text_file import Channel, Peak, TextFile
 
 TEXT, INTEGERS, REALS = 11, 6, 10
 """Number of lines of each part of the header."""

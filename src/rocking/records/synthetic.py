@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.model import GroundMotion, refusal, whole, within
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.validation import refusal, whole, within
 
 MAX_MOTIONS = 10_000
 MAX_VALUES = 20_000_000

@@ -1,17 +1,288 @@
-"""Lines of a record file, and the numbers in them; errors name the file and the line."""
+"""Lines of a record file, the numbers in them, and the spellings of units; channels, and errors that name the file and the line."""
 
 from __future__ import annotations
 
+import hashlib
 import math
+import os
 import re
+import stat
+from collections.abc import Sequence
 from decimal import Decimal
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
-from rocking.model import counted, shown
-from rocking.records.channel import Peak, RecordError
-from rocking.records.content import Content
-from rocking.records.units import UNITS, unit_of
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.text import both_ends, counted, shown
+from rocking.model.validation import refusal
+
+TEXTS = "formats: PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, text in columns"
+
+
+class RecordError(ValueError):
+    """Record file that cannot be read. The message is one line and names the file and the place.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> str(rk.RecordError("a.at2, line 4: no step"))
+    'a.at2, line 4: no step'
+    """
+
+
+class Peak(NamedTuple):
+    """Peak acceleration as a header prints it, without its sign, in m/s²."""
+
+    size: float
+    rounding: float
+    """Half a unit of the last printed digit."""
+
+
+class Channel(NamedTuple):
+    """One channel of a record file, as the file gives it."""
+
+    samples: np.ndarray
+    unit: str | None
+    """One of `UNITS`; None if the file does not state it."""
+    step: float | None
+    """Time step in s; None if the file does not state it."""
+    format: str
+    name: str = ""
+    component: str = ""
+    peak: Peak | None = None
+    named: frozenset[str] = frozenset()
+    """Units of acceleration that the header states, also where several leave the unit open."""
+    mentioned: frozenset[str] = frozenset()
+    """Units of acceleration that other words of the header mention."""
+    lacking: str = ""
+    """Sentence on the missing line that would state the unit; empty if no line is missing."""
+
+
+UNITS = {"m/s²": 1.0, "cm/s²": 0.01, "mm/s²": 0.001, "g": GRAVITY, "g/10": GRAVITY / 10}
+"""Size of each unit of acceleration, in m/s²."""
+SPELLINGS = {
+    "m/s2": "m/s²",
+    "ms-2": "m/s²",
+    "cm/s2": "cm/s²",
+    "cms-2": "cm/s²",
+    "gal": "cm/s²",
+    "gals": "cm/s²",
+    "mm/s2": "mm/s²",
+    "mms-2": "mm/s²",
+    "g": "g",
+    "g/10": "g/10",
+}
+"""Spellings of the units, in lower case and after `_plain`."""
+OTHER_UNITS = {
+    "m/s",
+    "cm/s",
+    "mm/s",
+    "m",
+    "cm",
+    "mm",
+    "counts",
+    "v",
+    "mv",
+    "mg",
+    "%g",
+    "ft/s2",
+    "in/s2",
+    "nm/s2",
+    "um/s2",
+}
+"""Units of other quantities, and of acceleration in units that are not read, after `_plain`."""
+TIMES = {"s", "sec", "secs", "second", "seconds"}
+OTHER_TIMES = {
+    "ms",
+    "msec",
+    "millisec",
+    "millisecond",
+    "milliseconds",
+    "min",
+    "minutes",
+    "h",
+    "hours",
+    "us",
+    "µs",
+}
+SEPARATOR = re.compile(r"[,;\t|]")
+IN_BRACKETS = re.compile(r"[\[(]([^\[\]()]++)[\])]")
+BETWEEN_BLANKS = re.compile(r"[^\s\[(]++(?:\s*+[\[(][^\[\]()]*+[\])])?+|\S")
+WORD = re.compile(r"\S+")
+SPEAKS = re.compile(
+    r"(?<![^\W_])(?:acc(?:el(?:erations?)?)?(?![^\W_])|units?(?![^\W_])|a(?=[\s_]*(?:[\[(]|in\b)))",
+    re.IGNORECASE,
+)
+"""Word of a cell of a header that speaks of acceleration, or of units."""
+STATED = re.compile(
+    r"(?:^[a-z]+[\s_.:=]+|\bin\s+|\bunits?(?:\s+(?:is|are|of|in)\b|\s*[:=])+\s*)([^\s()\[\]\"]{1,20})[\s)\]\"]*$",
+    re.IGNORECASE,
+)
+"""Unit at the end of such a cell: acc g, acceleration in g, units of g."""
+CHOICES = "be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'"
+
+
+def _plain(text: str) -> str:
+    """Return a spelling without blanks, powers and long seconds: CM/SEC/SEC → cm/s2."""
+    text = re.sub(r"[\s^*]", "", text.lower()).rstrip(".").replace("²", "2").replace("−", "-")
+    return text.replace("sec", "s").replace("cms/", "cm/").replace("/s/s", "/s2")
+
+
+def unit_of(text: str) -> str | None:
+    """Return the unit of acceleration that a text names; None if it is unknown.
+
+    Examples
+    --------
+    >>> unit_of("CM/SEC/SEC"), unit_of("Gal"), unit_of("m/s**2"), unit_of("cm/s")
+    ('cm/s²', 'cm/s²', 'm/s²', None)
+    """
+    return SPELLINGS.get(_plain(text))
+
+
+def header_units(lines: Sequence[str]) -> tuple[frozenset[str], frozenset[str]]:
+    """Return the units of acceleration that a header states, and those that its other words mention.
+
+    Stated are those of a line of units alone, and of a cell that speaks of acceleration or of units. Elsewhere, only what can be
+    nothing else, such as m/s², counts as mentioned.
+
+    Examples
+    --------
+    >>> [sorted(units) for units in header_units(["t acc_g", "recorded in G building, at most 3 m/s^2"])]
+    [['g'], ['m/s²']]
+    """
+    stated, mentioned = [], []
+    for line in lines:
+        if is_line_of_units(line):
+            stated += titles(line)
+        for cell in SEPARATOR.split(line):
+            named = IN_BRACKETS.findall(cell) + re.split(r"[\s_\"'=:()\[\]]+", cell)
+            if word := SPEAKS.search(cell):
+                stated += [each for each in named if not each.isalpha()] + IN_BRACKETS.findall(cell)
+                stated += STATED.findall(cell[word.start() :])
+            else:
+                mentioned += [each for each in named if not each.isalpha()]
+    return _units(stated), _units(mentioned)
+
+
+def _units(texts: Sequence[str]) -> frozenset[str]:
+    return frozenset(unit for unit in map(unit_of, texts) if unit is not None)
+
+
+def only(named: frozenset[str]) -> str | None:
+    """Return the unit that a header names; None if it names none, or several."""
+    return next(iter(named)) if len(named) == 1 else None
+
+
+def titles(line: str) -> list[str]:
+    """Return what the cells of a header line hold in brackets, or all of a cell without brackets.
+
+    Examples
+    --------
+    >>> titles("# time (s); acceleration (m/s²)"), titles("s  g")
+    (['s', 'm/s²'], ['s', 'g'])
+    """
+    return [(IN_BRACKETS.findall(cell) or [cell])[-1].strip() for cell in _split(line, WORD)]
+
+
+def is_other(text: str) -> bool:
+    """Return whether a text is a unit in which acceleration is not read, such as cm/s."""
+    return _plain(text) in OTHER_UNITS
+
+
+def is_line_of_units(line: str) -> bool:
+    """Return whether a line holds units alone, such as "s,g"."""
+    return all(
+        unit_of(text) or is_other(text) or text.lower() in (*TIMES, *OTHER_TIMES) for text in titles(line)
+    )
+
+
+def cells(line: str) -> list[str]:
+    """Return the cells of a line of titles: between separators or, without one, between blanks outside brackets.
+
+    Examples
+    --------
+    >>> cells("time (s), NS (g)"), cells("# t [s]  NS [g]")
+    (['time (s)', 'NS (g)'], ['t [s]', 'NS [g]'])
+    """
+    return _split(line, BETWEEN_BLANKS)
+
+
+def _split(line: str, word: re.Pattern[str]) -> list[str]:
+    plain = line.strip().lstrip("#%!/").replace('"', "")
+    found = SEPARATOR.split(plain) if SEPARATOR.search(plain) else word.findall(plain)
+    return [cell.strip() for cell in found]
+
+
+def given_unit(units: str) -> str:
+    """Return the unit that the argument `units` names; TypeError or ValueError for anything else."""
+    if not isinstance(units, str):
+        raise TypeError(refusal("units", CHOICES, units))
+    found = unit_of(units)
+    if found is None:
+        raise ValueError(refusal("units", CHOICES, units))
+    return found
+
+
+MAX_BYTES = 300_000_000
+
+
+class Content:
+    """Bytes of a regular file of limited size, or bytes in memory with a name."""
+
+    def __init__(self, source: str | os.PathLike[str] | bytes, name: str | None = None) -> None:
+        if isinstance(source, bytes):
+            self._keep(source, "bytes" if name is None else name)
+        elif name is not None:
+            raise TypeError(refusal("name", "be omitted for a source that is not bytes", name))
+        elif isinstance(source, str | os.PathLike):
+            self._read(Path(source))
+        else:
+            raise TypeError(refusal("source", "be a path, bytes, or a Stream or Trace of ObsPy", source))
+
+    def _keep(self, data: bytes, name: str) -> None:
+        """Take over bytes in memory."""
+        if not isinstance(name, str):
+            raise TypeError(refusal("name", "be a str", name))
+        self.name = name
+        shown = both_ends(name)
+        if len(data) > MAX_BYTES:
+            raise RecordError(f"{shown}: larger than {MAX_BYTES // 1_000_000} MB")
+        self._take(data, shown)
+
+    def _read(self, place: Path) -> None:
+        """Read a file."""
+        self.name = place.name
+        shown = both_ends(os.fspath(place))
+        try:
+            about = place.stat()
+            if stat.S_ISDIR(about.st_mode):
+                raise RecordError(f"{shown}: a folder; give the path of one file")
+            if not stat.S_ISREG(about.st_mode):
+                raise RecordError(f"{shown}: not a regular file")
+            if about.st_size > MAX_BYTES:
+                raise RecordError(f"{shown}: larger than {MAX_BYTES // 1_000_000} MB")
+            data = place.read_bytes()
+        except (OSError, ValueError) as error:
+            if isinstance(error, RecordError):
+                raise
+            reason = getattr(error, "strerror", None) or error
+            advice = "; check the path" if isinstance(error, FileNotFoundError) else ""
+            raise RecordError(f"{shown}: cannot be read: {reason}{advice}") from error
+        self._take(data, shown)
+
+    def _take(self, data: bytes, shown: str) -> None:
+        if not data.strip():
+            raise RecordError(f"{shown}: the file is empty")
+        self.data = data
+        self.sha256 = hashlib.sha256(self.data).hexdigest()
+
+    @property
+    def is_text(self) -> bool:
+        """True if no byte is 0, as in every text."""
+        return b"\0" not in self.data
+
 
 # No expression here or in a reader may try a blank or a digit in two places: see MAX_LINE.
 NUMBER = re.compile(r"[-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[EeDd][-+]?\d{1,4}(?!\d))?", re.ASCII)

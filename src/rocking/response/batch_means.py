@@ -9,7 +9,7 @@ from attrs import frozen
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.kernels.numerics import averages
-from rocking.model import reals, refusal
+from rocking.model.validation import reals, refusal
 
 MAX_BATCHES = 256
 MIN_BATCHES = 32

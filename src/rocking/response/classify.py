@@ -1,4 +1,4 @@
-"""Classification of a response, with its evidence."""
+"""Classification of a response, with its evidence, its rotation number and, on request, its proof."""
 
 from __future__ import annotations
 
@@ -6,15 +6,178 @@ import math
 from concurrent.futures import Future
 from contextlib import suppress
 from threading import Thread
-from typing import Any
+from typing import Any, Literal
+
+import numpy as np
+from attrs import evolve, frozen
 
 from rocking.kernels import batch
+from rocking.kernels.classify import results
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import Kind, Orbit, Outcome, State, System, Verdict, check_periodic, whole
-from rocking.motion import Motion, simulate, start_march
+from rocking.model.orbit import Orbit
+from rocking.model.system import State, System, check_periodic
+from rocking.model.validation import TooManyEvents, refuse_if, whole
+from rocking.model.verdict import Kind, Outcome, Verdict
+from rocking.motion.march_loop import start_march
+from rocking.motion.motion import Motion
+from rocking.motion.simulate import simulate
+from rocking.proof.prove import check_provable, prove
+from rocking.response.batch_means import batch_mean
 from rocking.response.evidence import Case, evidence_of
-from rocking.response.proved_verdict import Wanted, check_wanted, with_proof
-from rocking.response.transient import transient_of
+from rocking.response.rotation_number import (
+    CERTAIN_DIGITS,
+    RotationNumber,
+    average,
+    flights_of,
+    rotation_of,
+    strikes_of,
+)
+
+
+def transient_of(judged: kernel.Judgement | results.ResultArrays) -> Any:
+    """Return the cycles after which a response was reached at the latest, as an integer or an array; -1 if unknown.
+
+    A block that never moves has no transient. The decision sequence itself gives the cycle of the checkpoint at which rest was
+    proved. If a block overturns, the cycles before that of the proof count.
+    """
+    # Rest after a motion needs an event, which `work` counts.
+    unmoved = np.equal(judged.kind, kernel.REST) & np.equal(judged.work, 0)
+    before_proof = np.maximum(np.subtract(judged.cycles, 1), 0)
+    moved = np.where(np.equal(judged.kind, kernel.OVERTURNS), before_proof, judged.transient)
+    return np.where(unmoved, 0, moved)
+
+
+# Length of the run of a response whose impacts are counted, and number of cycles discarded before.
+CYCLES, TRANSIENT = 20_000, 2_000
+
+
+@frozen
+class MeanImpacts:
+    """Mean number of impacts at Θ = 0 per forcing cycle; returned by `mean_impacts`.
+
+    Attributes
+    ----------
+    value, error : float
+        Mean number and its error; NaN if there is none.
+    rotation : RotationNumber or None
+        Rotation numbers of an undamped motion, with the rotation within its island.
+    """
+
+    value: float
+    error: float
+    rotation: RotationNumber | None = None
+
+
+UNKNOWN = MeanImpacts(math.nan, math.nan)
+
+
+def mean_impacts(verdict: Verdict) -> MeanImpacts:
+    """Return the mean number of impacts per forcing cycle of a classified response.
+
+    A periodic response has the fraction (impacts per period)/period, and a block at rest has none. The impacts of other
+    responses are counted in a run of `simulate`, which rounds differently from `classify`.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Result of `classify`.
+
+    Returns
+    -------
+    MeanImpacts
+        NaN if the block overturns, if the response is undetermined, or if infinitely many impacts precede rest.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = mean_impacts(rk.classify(rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)))
+    >>> round(found.value, 6), found.error  # two impacts in three cycles
+    (0.666667, 0.0)
+    """
+    if verdict.kind is Kind.REST:
+        return MeanImpacts(0.0, 0.0)
+    if verdict.kind is Kind.PERIODIC:
+        return _of_orbit(verdict)
+    if verdict.kind is Kind.QUASI_PERIODIC:
+        return _on_torus(verdict)
+    return _counted(verdict) if verdict.kind is Kind.CHAOTIC else UNKNOWN
+
+
+def _of_orbit(verdict: Verdict) -> MeanImpacts:
+    if verdict.period is None or verdict.impacts_per_period is None:
+        return UNKNOWN
+    return MeanImpacts(verdict.impacts_per_period / verdict.period, 0.0)
+
+
+def _on_torus(verdict: Verdict) -> MeanImpacts:
+    motion = simulate(verdict.system, verdict.start, CYCLES, record="all")
+    try:
+        strikes = strikes_of(motion)
+    except ValueError:
+        # This run rounds differently, and it overturns or rests.
+        return UNKNOWN
+    try:
+        rotation = rotation_of(motion, *strikes)
+    except ValueError:
+        # The rotation within the island is not known. The mean number of impacts does not need it.
+        rotation = None
+    section = strikes[0]
+    if section != "impacts":
+        return MeanImpacts(0.0, 0.0, rotation)
+    time, digits = average(flights_of(motion, section))
+    return MeanImpacts(1.0 / time, 10.0 ** -min(digits, CERTAIN_DIGITS) / time, rotation)
+
+
+def _counted(verdict: Verdict) -> MeanImpacts:
+    """Count the impacts of a chaotic motion. The error is infinite if the run supports none, and there is no mean if the block rests."""
+    try:
+        motion = simulate(verdict.system, verdict.start, CYCLES + TRANSIENT, record="all")
+    except TooManyEvents:
+        return UNKNOWN
+    events = motion.events[motion.events["cycle"] >= TRANSIENT]
+    if motion.outcome is not Outcome.BOUNDED or np.isin(events["kind"], ("rest", "lean")).any():
+        return UNKNOWN
+    cycles = events["cycle"][events["kind"] == "impact"] - TRANSIENT
+    mean = batch_mean(np.bincount(cycles, minlength=CYCLES)[:CYCLES])
+    return MeanImpacts(mean.value, mean.error)
+
+
+Wanted = bool | Literal["orbit"]
+
+
+def check_wanted(wanted: Wanted, system: System) -> None:
+    """Raise an error unless a proof is not wanted, or can be tried.
+
+    Raises
+    ------
+    ImportError
+        If python-flint is not installed.
+    ValueError
+        If the block is not slender, or `wanted` is neither a boolean nor "orbit".
+    """
+    known = isinstance(wanted, bool) or (isinstance(wanted, str) and wanted == "orbit")
+    refuse_if(not known, "prove", 'be False, True or "orbit"', wanted)
+    if wanted:
+        check_provable(system)
+
+
+def with_proof(verdict: Verdict, wanted: Wanted) -> Verdict:
+    """Return a verdict with the proof of its orbit, which never changes the type of response.
+
+    Only the proof that the initial state leads to the orbit raises the level of the evidence to "proved".
+    """
+    if not wanted:
+        return verdict
+    if verdict.orbit is None:
+        shown = f"{verdict.evidence.shown} Only a periodic response is proved in ball arithmetic."
+        return evolve(verdict, evidence=evolve(verdict.evidence, shown=shown))
+    proof = prove(verdict.orbit if wanted == "orbit" else verdict)
+    shown, level = verdict.evidence.shown, verdict.evidence.level
+    if proof.starts:
+        shown, level = shown.replace(f"Evidence: {level}", "Evidence: proved"), "proved"
+    evidence = evolve(verdict.evidence, level=level, shown=f"{shown} In ball arithmetic, {proof}.")
+    return evolve(verdict, evidence=evidence, orbit=evolve(verdict.orbit, proof=proof))
+
 
 MAX_CYCLES = 100_000_000
 MAX_PERIOD = 10_000

@@ -1,33 +1,231 @@
-"""Correlation dimension of a set of points, with an interval and the scaling range."""
+"""Correlation dimension of a set of points: counts of pairs, the scaling range, and an interval."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import (
-    NotebookPicture,
-    ReadOnlyArrays,
-    TooShort,
-    described,
-    named,
-    read_only,
-    reals,
-    refusal,
-    refuse_if,
-)
-from rocking.motion import Motion
-from rocking.response.pair_counts import pairs_within
-from rocking.response.scaling_region import Scaling, scaling_region
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.validation import TooShort, reals, refusal, refuse_if
+from rocking.motion.motion import Motion
 
 if TYPE_CHECKING:
     import xarray as xr
 
+
 Array = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+STEPS_PER_OCTAVE = 4
+# Beyond the spread of the points, the pair count saturates.
+MAX_RADIUS = 0.5
+BLOCKS = 16
+# With fewer close pairs in a block, the logarithm of their number is dominated by noise.
+MIN_PAIRS = 64
+REFERENCES = 2_000
+# Largest number of pairs listed individually, at about 100 bytes each.
+MAX_PAIRS = 3e6
+
+
+def pairs_within(scaled: Array, theiler: int, same: float) -> tuple[Array, Array, Array]:
+    """Count pairs within radii, for reference points in blocks that are consecutive in time.
+
+    Pairs that follow each other by at most ``theiler`` points are excluded. Radii are larger than ``same``.
+
+    Returns
+    -------
+    radii : ndarray, shape (n,)
+        Radii in ascending order.
+    counts, pairs : ndarray, shape (blocks, n)
+        Number of pairs within each radius, and number of all pairs.
+    """
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(scaled)
+    nearest = np.sort(tree.query(scaled, k=2)[0][:, 1])
+    smallest = max(float(nearest[MIN_PAIRS]), same)
+    octaves = max(math.log2(MAX_RADIUS / smallest), 0.0)
+    radii = MAX_RADIUS * 2.0 ** (-np.arange(int(octaves * STEPS_PER_OCTAVE), -1, -1) / STEPS_PER_OCTAVE)
+    # Large radii need few reference points; small radii use all points.
+    few = np.sort(np.random.default_rng(0).permutation(len(scaled))[:REFERENCES])
+    counts, pairs = _counted(tree, few, theiler, radii)
+    near = int(np.searchsorted(0.5 * counts.sum(axis=0) * len(scaled) / len(few), MAX_PAIRS))
+    if near and len(few) < len(scaled):
+        counts[:, :near], pairs[:, :near] = _listed(tree, theiler, radii[:near])
+    scarce = np.flatnonzero(counts.min(axis=0) < MIN_PAIRS)
+    first = int(scarce[-1]) + 1 if scarce.size else 0
+    return radii[first:], counts[:, first:], pairs[:, first:]
+
+
+def _counted(tree: Any, chosen: Places, theiler: int, radii: Array) -> tuple[Array, Array]:
+    """Count pairs of selected reference points with all points, one tree per block."""
+    from scipy.spatial import cKDTree
+
+    counts = []
+    for block in np.array_split(chosen, BLOCKS):
+        close = np.zeros(len(radii))
+        for lag in range(-theiler, theiler + 1):
+            here = block[(block + lag >= 0) & (block + lag < tree.n)]
+            close += _within(tree.data[here + lag] - tree.data[here], radii)
+        counts.append(cKDTree(tree.data[block]).count_neighbors(tree, radii) - close)
+    return np.array(counts), np.repeat(_admitted(chosen, tree.n, theiler), len(radii), axis=1)
+
+
+def _listed(tree: Any, theiler: int, radii: Array) -> tuple[Array, Array]:
+    """Count pairs of all points by listing them."""
+    listed = tree.query_pairs(radii[-1], output_type="ndarray")
+    listed = listed[np.abs(listed[:, 1] - listed[:, 0]) > theiler]
+    distances = np.sqrt(((tree.data[listed[:, 0]] - tree.data[listed[:, 1]]) ** 2).sum(axis=1))
+    bins = np.searchsorted(radii, distances)
+    everyone = np.arange(tree.n)
+    block_of = np.repeat(np.arange(BLOCKS), [len(block) for block in np.array_split(everyone, BLOCKS)])
+    cells = sum(
+        np.bincount(block_of[listed[:, end]] * len(radii) + bins, minlength=BLOCKS * len(radii))
+        for end in (0, 1)
+    )
+    counts = np.cumsum(np.reshape(cells, (BLOCKS, len(radii))), axis=1).astype(float)
+    return counts, np.repeat(_admitted(everyone, tree.n, theiler), len(radii), axis=1)
+
+
+def _within(differences: Array, radii: Array) -> NDArray[np.intp]:
+    distances = np.sort(np.sqrt((differences**2).sum(axis=1)))
+    return np.searchsorted(distances, radii, side="right")
+
+
+def _admitted(chosen: Places, points: int, theiler: int) -> Array:
+    """Number of points outside the Theiler windows of the selected points, shape (blocks, 1)."""
+    outside = np.maximum(chosen - theiler, 0) + np.maximum(points - 1 - chosen - theiler, 0)
+    return np.array([[float(block.sum())] for block in np.array_split(outside, BLOCKS)])
+
+
+DECADE = math.log(10.0)
+MIN_LENGTH = 0.5 * DECADE
+# Limits of the width of the interval. The first that some region of a decade meets is used.
+WIDTHS = (0.08, 0.12, 0.2, 0.4)
+# Overlapping halves of a region whose slopes are compared.
+HALVES = 5
+# Each pair is counted from both ends, in two blocks, so the blocks underestimate the variance by a factor of 2.
+TWICE = math.sqrt(2.0)
+
+
+@frozen
+class Scaling:
+    """Scaling region, with its slope and interval, and the data at every radius.
+
+    Attributes
+    ----------
+    region : tuple of int
+        Indices of the first and last radius.
+    found : bool
+        True if the region spans a decade within the widest interval allowed.
+    slope : float
+        Slope of ln C against ln r.
+    interval : tuple of float
+        Interval of the slope.
+    sums, slopes, slope_errors : ndarray
+        Correlation sums, local slopes and their standard errors.
+    """
+
+    region: tuple[int, int]
+    found: bool
+    slope: float
+    interval: tuple[float, float]
+    sums: Array
+    slopes: Array
+    slope_errors: Array
+
+
+def scaling_region(radii: Array, counts: Array, pairs: Array) -> Scaling | None:
+    """Find the longest range of radii over which ln C has one slope; None for less than half a decade of radii.
+
+    Parameters
+    ----------
+    radii : ndarray, shape (n,)
+        Radii in geometric progression.
+    counts, pairs : ndarray, shape (blocks, n)
+        Number of pairs within each radius, and number of all pairs, for reference points in blocks.
+    """
+    if len(radii) < 3 or math.log(radii[-1] / radii[0]) < MIN_LENGTH:
+        return None
+    x = np.log(radii)
+    y = np.log(counts.sum(axis=0) / pairs.sum(axis=0))
+    # jackknife: each row omits one block
+    fits = _Fits(x, np.vstack([y, np.log((counts.sum(axis=0) - counts) / (pairs.sum(axis=0) - pairs))]))
+    first, last, found = _longest(fits)
+    low, high = fits.interval(first, last)
+    local = [fits.slope(k, k + 1) for k in range(len(x) - 1)]
+    return Scaling(
+        region=(first, last),
+        found=found,
+        slope=fits.slope(first, last)[0],
+        interval=(max(low, 0.0), high),
+        sums=np.exp(y),
+        slopes=np.array([pair[0] for pair in local]),
+        slope_errors=np.array([pair[1] for pair in local]),
+    )
+
+
+class _Fits:
+    """Straight-line fits to any range of the points, in constant time each."""
+
+    def __init__(self, x: Array, rows: Array) -> None:
+        self.x = x - x.mean()
+        self.sums = [
+            np.concatenate([np.zeros((len(rows), 1)), np.cumsum(terms, axis=1)], axis=1)
+            for terms in (rows, rows * self.x)
+        ]
+        self.moments = [np.concatenate([[0.0], np.cumsum(self.x**power)]) for power in (1, 2)]
+
+    def slope(self, first: int, last: int) -> tuple[float, float]:
+        """Return the slope over a range, ends included, and its jackknife standard error."""
+        count = last - first + 1
+        sy, sxy = (terms[:, last + 1] - terms[:, first] for terms in self.sums)
+        sx, sxx = (moment[last + 1] - moment[first] for moment in self.moments)
+        slopes = (count * sxy - sx * sy) / (count * sxx - sx * sx)
+        blocks = len(slopes) - 1
+        spread = math.sqrt((blocks - 1) / blocks * ((slopes[1:] - slopes[1:].mean()) ** 2).sum())
+        return float(slopes[0]), TWICE * spread
+
+    def interval(self, first: int, last: int) -> tuple[float, float]:
+        """Return the interval of the slope of a range.
+
+        It spans the slopes of the whole range and of its halves. On both sides, the margin is the spread of these slopes
+        plus two standard errors.
+        """
+        slope, error = self.slope(first, last)
+        half = (last - first) // 2
+        starts = first + np.round(np.linspace(0, last - first - half, HALVES)).astype(int)
+        slopes = [slope, *(self.slope(start, start + half)[0] for start in starts.tolist())]
+        margin = max(slopes) - min(slopes) + 2.0 * error
+        return min(slopes) - margin, max(slopes) + margin
+
+
+def _longest(fits: _Fits) -> tuple[int, int, bool]:
+    """Return the longest region of a decade or more within the first possible width.
+
+    Returns
+    -------
+    tuple of (int, int, bool)
+        Indices of the first and last radius; True. If there is none, the region with the narrowest interval; False.
+    """
+    x = fits.x
+    regions = []
+    for first in range(len(x)):
+        for last in range(int(np.searchsorted(x, x[first] + MIN_LENGTH - 1e-9)), len(x)):
+            low, high = fits.interval(first, last)
+            regions.append((first, last, float(x[last] - x[first]), high - low))
+    for widest in WIDTHS:
+        fair = [region for region in regions if region[3] <= widest and region[2] >= DECADE - 1e-9]
+        if fair:
+            best = max(fair, key=lambda region: (round(region[2], 6), -region[3]))
+            return best[0], best[1], True
+    best = min(regions, key=lambda region: region[3])
+    return best[0], best[1], False
+
 
 MIN_POINTS = 1_000
 MAX_POINTS = 10_000_000

@@ -8,18 +8,13 @@ from decimal import ROUND_UP, Context, Decimal
 
 from attrs import field, frozen
 
-from rocking.kernels.classify import (
-    decision_cascade,
-    leg,
-    periodicity,
-    quasi_periodicity,
-    reset,
-    workspace,
-)
+from rocking.kernels.classify import decision_cascade, leg, periodicity, quasi_periodicity, reset, workspace
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.kernels.orbits import fixed_point
-from rocking.model import Criterion, Evidence, System, counted, plus_minus
-from rocking.motion import Motion
+from rocking.model.system import System
+from rocking.model.text import counted, plus_minus
+from rocking.model.verdict import Criterion, Evidence
+from rocking.motion.motion import Motion
 
 MAX_GROWTH = f"{math.exp(reset.MAX_STRAIN):.0e}".replace("e+0", "e")
 

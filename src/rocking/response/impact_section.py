@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from rocking.model import State, System, refusal, whole
-from rocking.motion import Motion, kept_events
+from rocking.model.system import State, System
+from rocking.model.validation import refusal, whole
+from rocking.motion.motion import Motion
+from rocking.motion.simulate import kept_events
 
 IMPACT = np.dtype([("time", "f8"), ("cycle", "i8"), ("phase", "f8"), ("before", "f8"), ("after", "f8")])
 DEFAULT_CYCLES = 1000

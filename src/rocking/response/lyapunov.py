@@ -3,13 +3,213 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
+from attrs import evolve, field, frozen
 
-from rocking.model import NO_BRACES, Outcome, State, System, TooShort, check_periodic, quantities, whole
-from rocking.motion import march_on, start_march
-from rocking.response.batch_means import MAX_BATCHES, MIN_BATCHES
-from rocking.response.lyapunov_spectrum import LyapunovSpectrum, means_of, rounding_of
+from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.system import NO_BRACES, State, System, check_periodic, quantities
+from rocking.model.text import counted, plus_minus
+from rocking.model.validation import TooShort, whole
+from rocking.model.verdict import Outcome
+from rocking.motion.march_loop import march_on, start_march
+from rocking.response.batch_means import MAX_BATCHES, MIN_BATCHES, BatchMean, batch_mean
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+# Bound of the relative rounding of the two logarithms of one event.
+ROUNDING = 4.0 * np.finfo(float).eps
+HISTORY = np.dtype([("cycles", "i8"), ("values", "f8", 2), ("errors", "f8", 2)])
+
+
+@frozen(eq=False, slots=False)
+class LyapunovSpectrum(ReadOnlyArrays, NotebookPicture):
+    """Both Lyapunov exponents of a motion, with errors; returned by `lyapunov`.
+
+    Attributes
+    ----------
+    system, start : System, State
+        System and initial state.
+    cycles, transient : int
+        Number of forcing cycles of the average, and number of cycles discarded before it.
+    values : ndarray, shape (2,)
+        λ₁ ≥ λ₂ per τ; −∞ if the motion rests or remains in contact with a brace (superstable).
+    errors : ndarray, shape (2,)
+        Errors per τ: standard errors, or bounds if `bounded`. 0 for −∞; infinite in the `estimate` of `TooShort`.
+    bounded : bool
+        True if the sum of λ₁ stays bounded, as on periodic and quasi-periodic motions. The errors are then the largest
+        drift of the running estimate over the last three quarters of the run.
+    correlation : float
+        Integrated correlation time of the growth of λ₁, in batches of `cycles`/256. A value near 1 means that the batches
+        are long enough.
+    sum_rule_error : float
+        Rounding error per τ: λ₁ + λ₂ minus (2 ln e · impacts + 2 ln r · brace hits)/τ.
+    impacts, brace_hits : int
+        Number of impacts at Θ = 0 and on the braces in the averaged cycles.
+    growths : ndarray, shape (batches, 2)
+        Logarithmic growth in consecutive batches, that of λ₁ first.
+    lengths : ndarray, shape (batches,)
+        Number of cycles in each batch.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=10.103037, period=1.721328), restitution=0.8)
+    >>> spectrum = rk.lyapunov(system, cycles=20_000)
+    >>> bool(abs(spectrum.values[0] - 0.073) < 4 * spectrum.errors[0] < 0.005)
+    True
+    """
+
+    system: System
+    start: State
+    cycles: int
+    transient: int
+    values: np.ndarray = field(converter=read_only)
+    errors: np.ndarray = field(converter=read_only)
+    bounded: bool
+    correlation: float
+    sum_rule_error: float
+    impacts: int
+    brace_hits: int
+    growths: np.ndarray = field(repr=False, converter=read_only)
+    lengths: np.ndarray = field(repr=False, converter=read_only)
+
+    @property
+    def superstable(self) -> bool:
+        """True if both exponents are −∞, because perturbations vanish at rest or in sustained contact with a brace."""
+        return bool(self.values[0] == -math.inf)
+
+    @property
+    def per_cycle(self) -> tuple[np.ndarray, np.ndarray]:
+        """Values and errors per forcing cycle instead of per τ."""
+        period = self.system.periodic.period
+        return self.values * period, self.errors * period
+
+    @cached_property
+    def history(self) -> np.ndarray:
+        """Running estimates per τ, a structured array with the fields cycles, values (2) and errors (2).
+
+        Errors are infinite as long as there are too few batches. The array is empty if superstable.
+        """
+        if self.superstable:
+            return np.empty(0, HISTORY)
+        history = np.empty(len(self.lengths), HISTORY)
+        period = self.system.periodic.period
+        rounding = rounding_of(self.impacts + self.brace_hits, self.cycles * period)
+        history["cycles"] = np.cumsum(self.lengths)
+        for row in range(len(history)):
+            means = means_of(self.growths[: row + 1], self.lengths[: row + 1] * period, rounding)
+            history[row] = (
+                history["cycles"][row],
+                [mean.value for mean in means],
+                [mean.error for mean in means],
+            )
+        return read_only(history)
+
+    @property
+    def kaplan_yorke(self) -> tuple[float, float]:
+        """Kaplan–Yorke dimension of the section and its error: 1 + λ₁/|λ₂|, or 0 if λ₁ < 0.
+
+        The dimension of the flow is one more.
+
+        Raises
+        ------
+        ValueError
+            If there is no contraction, λ₁ + λ₂ ≥ 0: an undamped motion has no attractor. Also if the motion is
+            superstable.
+        TooShort
+            If λ₁ is within two errors of 0, so that the dimension may be 0 or above 1.
+        """
+        if self.superstable:
+            raise ValueError(
+                "a superstable motion has no Kaplan–Yorke dimension: its section is a finite set of points"
+            )
+        one, two = (float(value) for value in self.values)
+        error, other = (float(value) for value in self.errors)
+        if one + two >= -10.0 * abs(self.sum_rule_error):
+            raise ValueError(
+                f"the Kaplan–Yorke dimension requires contraction, λ₁ + λ₂ < 0; got {one:.4g} and {two:.4g} "
+                "(an undamped motion has no attractor)"
+            )
+        if one < 0.0 and abs(one) > 2.0 * error:
+            return 0.0, 0.0
+        if one <= 2.0 * error:
+            raise TooShort(
+                f"the sign of λ₁ = {one:.3g} ± {error:.2g}, and therefore the dimension, is undecided (increase cycles)",
+                1.0 + max(one, 0.0) / abs(two),
+            )
+        return 1.0 - one / two, error / abs(two) + one * other / two**2
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the exponents and their running estimates as a dataset.
+
+        Returns
+        -------
+        xarray.Dataset
+            `value` and `error` of each `exponent`; `running_value` and `running_error` over `cycles` since the transient.
+        """
+        import xarray as xr
+
+        history = self.history
+        running = ("cycles", "exponent")
+        variables = {
+            "value": ("exponent", self.values, named("Lyapunov exponent per tau")),
+            "error": ("exponent", self.errors, named("error of the Lyapunov exponent per tau")),
+            "running_value": (
+                running,
+                history["values"],
+                named("running estimate of the Lyapunov exponent per tau"),
+            ),
+            "running_error": (running, history["errors"], named("error of the running estimate per tau")),
+        }
+        cycles = "cycles", history["cycles"], named("forcing cycles since the transient")
+        attributes = described("Lyapunov exponents") | {
+            **quantities(self.system),
+            "start_angle": self.start.angle,
+            "start_velocity": self.start.velocity,
+            "transient": self.transient,
+            "bounded": int(self.bounded),
+            "impacts": self.impacts,
+            "brace_hits": self.brace_hits,
+        }
+        return xr.Dataset(variables, {"cycles": cycles}, attributes)
+
+    def __str__(self) -> str:
+        over = f"over {counted(self.cycles, 'cycle')} after {self.transient:,}"
+        if self.superstable:
+            return f"λ = −∞, −∞ {over}: superstable, perturbations vanish at rest or in contact with a brace"
+        one, two = (plus_minus(*pair) for pair in zip(self.values, self.errors, strict=True))
+        return f"λ = {one}, {two} per τ {over}" + (
+            "; errors are bounds, not standard errors" if self.bounded else ""
+        )
+
+
+def rounding_of(events: int, time: float) -> float:
+    """Return the bound of the rounding error of an exponent, from the number of events in a time."""
+    return float(ROUNDING * (1.0 + events / time))
+
+
+def means_of(growths: np.ndarray, times: np.ndarray, rounding: float) -> list[BatchMean]:
+    """Mean of both exponents per unit of `times`; −∞ without an error if a batch contains rest or sustained contact."""
+    return [_mean_of(column, times, rounding) for column in growths.T]
+
+
+def _mean_of(growths: np.ndarray, times: np.ndarray, rounding: float) -> BatchMean:
+    """Mean of an exponent. If the batches agree within their rounding, as on a periodic orbit, that is the error.
+
+    Each batch may be wrong by the rounding, so two of them may differ by twice as much.
+    """
+    if not np.isfinite(growths).all():
+        return BatchMean(-math.inf, 0.0, 1.0, bounded=False, batches=len(growths))
+    mean = batch_mean(growths, times)
+    if mean.batches >= MIN_BATCHES and np.ptp(growths / times) <= 2.0 * rounding:
+        return evolve(mean, error=rounding, correlation=1.0, bounded=True)
+    return mean
+
 
 MAX_CYCLES = 1_000_000_000
 

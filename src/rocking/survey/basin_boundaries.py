@@ -9,7 +9,8 @@ import numpy as np
 from attrs import frozen
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import System, UncertaintyExponent
+from rocking.model.survey_results import UncertaintyExponent
+from rocking.model.system import System
 from rocking.survey.measurement import Measurement
 from rocking.survey.measures.attractors import label_attractors
 from rocking.survey.sampling.random_points import MAX_SAMPLES, sampled

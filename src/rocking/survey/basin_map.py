@@ -9,20 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import (
-    MAX_START,
-    Attractor,
-    BasinMap,
-    Kind,
-    Share,
-    System,
-    check_between,
-    instance,
-    refusal,
-    refuse_if,
-    whole,
-    within,
-)
+from rocking.model.share import Share
+from rocking.model.survey_results import Attractor, BasinMap
+from rocking.model.system import MAX_START, System, check_between
+from rocking.model.validation import instance, refusal, refuse_if, whole, within
+from rocking.model.verdict import Kind
 from rocking.survey.basin_boundaries import WIDTHS, Boundaries
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.harmonic_spec import HarmonicSpec, coordinate, question

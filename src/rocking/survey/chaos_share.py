@@ -8,8 +8,11 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import RANGES, ChaosShare, Share, check_below_flat, real, refusal, whole, within
-from rocking.response import KINDS
+from rocking.model.share import Share
+from rocking.model.survey_results import ChaosShare
+from rocking.model.system import RANGES, check_below_flat
+from rocking.model.validation import real, refusal, whole, within
+from rocking.response.classify import KINDS
 from rocking.survey.harmonic_spec import HarmonicSpec, check_quantity, coordinate, points
 from rocking.survey.measures.kind import interval_variables, outcome
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span

@@ -9,27 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import (
-    Block,
-    Fragility,
-    GroundMotion,
-    RecordSet,
-    reals,
-    record_set,
-    refusal,
-    refuse_if,
-    whole,
-    within,
-)
+from rocking.model.block import Block
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.record_results import Fragility
+from rocking.model.record_set import RecordSet, record_set
+from rocking.model.validation import reals, refusal, refuse_if, whole, within
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.incremental_dynamic_analysis import block_question, of_block
 from rocking.survey.measures.ending import UNDECIDED, ending
 from rocking.survey.sampling.block_samples import UncertainMotionSpec, block_samples, fingerprints
-from rocking.survey.sampling.clustered_fractions import (
-    Fractions,
-    clustered_fractions,
-    two_level_weights,
-)
+from rocking.survey.sampling.clustered_fractions import Fractions, clustered_fractions, two_level_weights
 from rocking.survey.sampling.fragility_curve import fitted
 from rocking.survey.sampling.random_points import MAX_SEED
 

@@ -10,7 +10,8 @@ import numpy as np
 from attrs import frozen
 
 from rocking.kernels.forcing import parameters as numbers
-from rocking.model import NO_BRACES, RANGES, check_below_flat, check_between, exactly_one, refusal
+from rocking.model.system import NO_BRACES, RANGES, check_below_flat, check_between
+from rocking.model.validation import exactly_one, refusal
 from rocking.survey.spec import SurveySpec, Values, is_axis, number_or_axis
 
 SYMBOLS = {

@@ -7,16 +7,11 @@ from collections.abc import Iterable
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
-from rocking.model import (
-    Block,
-    GroundMotion,
-    IncrementalDynamicAnalysis,
-    RecordSet,
-    block_attributes,
-    instance,
-    record_set,
-    refusal,
-)
+from rocking.model.block import Block, block_attributes
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.record_results import IncrementalDynamicAnalysis
+from rocking.model.record_set import RecordSet, record_set
+from rocking.model.validation import instance, refusal
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.measures.ending import ending
 from rocking.survey.motion_spec import MotionSpec, motion_question

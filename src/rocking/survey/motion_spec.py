@@ -8,23 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from attrs import evolve, field, frozen
 
-from rocking.model import (
-    GRAVITY,
-    INERTIA_RATIOS,
-    MODELS,
-    RANGES,
-    RECTANGLE,
-    SIZES,
-    GroundMotion,
-    Intensity,
-    RecordSet,
-    frequency_parameter,
-    housner_restitution,
-    intensity_of,
-    one_of,
-    refusal,
-    within,
-)
+from rocking.model.block import INERTIA_RATIOS, RECTANGLE, SIZES
+from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.record_set import Intensity, RecordSet, intensity_of
+from rocking.model.system import MODELS, RANGES
+from rocking.model.validation import one_of, refusal, within
 from rocking.survey.spec import SurveySpec, Values, number_or_axis
 
 MAX_LEVEL = 1e6

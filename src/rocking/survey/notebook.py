@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from rocking.model import notebook_renderers, percent
+from rocking.model import result
+from rocking.model.text import percent
 from rocking.survey.store.export import counts
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def html(found: xr.Dataset) -> str:
         or "flag_meanings" not in found["kind"].attrs
     ):
         return shown
-    return (notebook_renderers.html(found, KIND, line(found)) or "") + shown
+    return (result.html(found, KIND, line(found)) or "") + shown
 
 
 def line(found: xr.Dataset) -> str:

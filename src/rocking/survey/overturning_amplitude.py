@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import OverturningCurve, refusal, whole
+from rocking.model.survey_results import OverturningCurve
+from rocking.model.validation import refusal, whole
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.harmonic_spec import coordinate, question
 from rocking.survey.measures.kind import outcome

@@ -10,24 +10,13 @@ import numpy as np
 
 from rocking.kernels.march import ending as ends
 from rocking.kernels.march import finite_runs as kernel
-from rocking.model import (
-    MODELS,
-    RANGES,
-    SWITCH_ROW,
-    VERSION,
-    Block,
-    GroundMotion,
-    Intensity,
-    OverturningSet,
-    RecordSet,
-    instance,
-    intensity_of,
-    intervals_of,
-    one_of,
-    record_set,
-    refusal,
-    within,
-)
+from rocking.model.block import Block
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.package import VERSION
+from rocking.model.record_results import SWITCH_ROW, OverturningSet, intervals_of
+from rocking.model.record_set import Intensity, RecordSet, intensity_of, record_set
+from rocking.model.system import MODELS, RANGES
+from rocking.model.validation import instance, one_of, refusal, within
 from rocking.survey.engine.tile_loop import engine
 from rocking.survey.measurement import Arrays
 from rocking.survey.measures.ending import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled

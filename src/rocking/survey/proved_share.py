@@ -7,20 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import (
-    NO_BRACES,
-    Braces,
-    Harmonic,
-    Kind,
-    ProvedShare,
-    Share,
-    State,
-    System,
-    refusal,
-    whole,
-)
-from rocking.proof import check_provable
-from rocking.response import classify
+from rocking.model.forcing import Harmonic
+from rocking.model.proof import ProvedShare
+from rocking.model.share import Share
+from rocking.model.system import NO_BRACES, Braces, State, System
+from rocking.model.validation import refusal, whole
+from rocking.model.verdict import Kind
+from rocking.proof.prove import check_provable
+from rocking.response.classify import classify
 from rocking.survey.sampling.random_points import generator
 
 if TYPE_CHECKING:

@@ -8,7 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import KINDS, RANGES, SINES, one_of, refusal
+from rocking.model.forcing import KINDS, SINES
+from rocking.model.system import RANGES
+from rocking.model.validation import one_of, refusal
 from rocking.survey.spec import SurveySpec, Values, is_axis, number_or_axis
 
 QUANTITIES: dict[str, tuple[str, str]] = {

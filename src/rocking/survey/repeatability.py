@@ -10,8 +10,13 @@ from typing import TypeVar
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import Kind, Repeatability, Share, State, System, check_periodic, counted, whole, within
-from rocking.response import KINDS
+from rocking.model.share import Share
+from rocking.model.survey_results import Repeatability
+from rocking.model.system import State, System, check_periodic
+from rocking.model.text import counted
+from rocking.model.validation import whole, within
+from rocking.model.verdict import Kind
+from rocking.response.classify import KINDS
 from rocking.survey.measures.response import response
 from rocking.survey.sampling.perturbation import INPUTS, MAX_RELATIVE, TITLE, perturbed
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled

@@ -11,8 +11,10 @@ import numpy as np
 
 from rocking.kernels import batch
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import RepeatabilityMap, Share, whole, within
-from rocking.response import KINDS, budget
+from rocking.model.share import Share
+from rocking.model.survey_results import RepeatabilityMap
+from rocking.model.validation import whole, within
+from rocking.response.classify import KINDS, budget
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.harmonic_spec import Points, question
 from rocking.survey.measurement import Arrays, Measurement, Variable

@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import RECTANGLE, GroundMotion, RecordSet, frequency_parameter, record_set
+from rocking.model.block import RECTANGLE
+from rocking.model.block_formulas import frequency_parameter
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.record_set import RecordSet, record_set
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.measures.ending import ending
 from rocking.survey.motion_spec import MotionSpec, motion_question

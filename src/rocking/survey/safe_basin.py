@@ -8,7 +8,11 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import RANGES, Bar, SafeBasin, Share, instance, refusal, whole
+from rocking.model.progress import Bar
+from rocking.model.share import Share
+from rocking.model.survey_results import SafeBasin
+from rocking.model.system import RANGES
+from rocking.model.validation import instance, refusal, whole
 from rocking.survey.harmonic_spec import HarmonicSpec, Points, coordinate, points, question
 from rocking.survey.measures.kind import interval_variables, outcome
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span

@@ -9,17 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import evolve
 
-from rocking.model import (
-    Block,
-    GroundMotion,
-    RecordSet,
-    Sensitivity,
-    instance,
-    record_set,
-    refusal,
-    refuse_if,
-    whole,
-)
+from rocking.model.block import Block
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.record_results import Sensitivity
+from rocking.model.record_set import RecordSet, record_set
+from rocking.model.validation import instance, refusal, refuse_if, whole
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.incremental_dynamic_analysis import block_question, of_block
 from rocking.survey.measures.ending import OVERTURNED, UNDECIDED, ending

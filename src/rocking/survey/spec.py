@@ -9,7 +9,8 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 from attrs import evolve, field, frozen
 
-from rocking.model import reals, refusal, shown, within
+from rocking.model.text import shown
+from rocking.model.validation import reals, refusal, within
 
 Values = Mapping[str, np.ndarray]
 Spec = TypeVar("Spec", bound="SurveySpec")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rocking.model import System, check_constant_restitution, check_periodic, quantities
+from rocking.model.system import System, check_constant_restitution, check_periodic, quantities
 from rocking.survey.harmonic_spec import Points, points
 
 

@@ -1,8 +1,13 @@
 """Closed-form results for numbers or arrays: modes, Melnikov's function, tangency, free rocking, pulses, design rules."""
 
-from rocking.model import explain
-from rocking.theory.contact_restitution import contact_restitution
-from rocking.theory.design_rules import design_angle, equivalent_damping, pulse_overturning_rule
+from rocking.model.validation import explain
+from rocking.theory.design_rules import (
+    contact_restitution,
+    design_angle,
+    equivalent_damping,
+    pulse_overturning_rule,
+    rocking_frame,
+)
 from rocking.theory.dimensional import (
     physical_acceleration,
     physical_critical_energy,
@@ -10,20 +15,25 @@ from rocking.theory.dimensional import (
     physical_energy,
     physical_heteroclinic_orbit,
 )
-from rocking.theory.free_rocking import free_impact_speed, free_peaks, free_quarter_period, free_time_to_rest
-from rocking.theory.heteroclinic import (
-    heteroclinic_amplitude,
-    manifold_gap,
-    saddle_orbit,
-    stable_manifold_velocity,
-    unstable_manifold_velocity,
+from rocking.theory.free_rocking import (
+    energy,
+    free_impact_speed,
+    free_peaks,
+    free_quarter_period,
+    free_time_to_rest,
+    heteroclinic_orbit,
 )
 from rocking.theory.melnikov import (
     damping,
+    heteroclinic_amplitude,
     impact_loss,
+    manifold_gap,
     melnikov_amplitude,
     melnikov_function,
     melnikov_integral,
+    saddle_orbit,
+    stable_manifold_velocity,
+    unstable_manifold_velocity,
 )
 from rocking.theory.pulse_thresholds import (
     half_sine_pulse_amplitude,
@@ -32,14 +42,12 @@ from rocking.theory.pulse_thresholds import (
     one_sine_pulse_amplitude,
     rectangular_pulse_amplitude,
 )
-from rocking.theory.rocking_frame import rocking_frame
 from rocking.theory.symmetric_modes import (
     existence_amplitude,
     slower_mode_amplitude,
     symmetric_modes,
     symmetry_breaking_amplitude,
 )
-from rocking.theory.unforced_block import energy, heteroclinic_orbit
 
 __all__ = [
     "contact_restitution",

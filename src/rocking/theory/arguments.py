@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import MAX_AMPLITUDE, PERIODS, one_of, reals, refusal
+from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
+from rocking.model.validation import one_of, reals, refusal
 
 MAX_CYCLES = 9_999
 MAX_SIZE = 1e100

@@ -1,4 +1,7 @@
-"""Design rules for rocking: the loop of FEMA 356 and of Priestley, and pulses that overturn. They are no exact results."""
+"""Design rules for rocking: the loop of FEMA 356 and of Priestley, and pulses that overturn. They are no exact solutions.
+
+Also the restitution of an impact between the centre and the corner of the base, and the rocking frame.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import Block, GroundMotion, instance, one_of, within
-from rocking.theory.arguments import between, plain, restitutions
+from rocking.model.block import RECTANGLE, Block
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.validation import instance, one_of, refusal, within
+from rocking.theory.arguments import between, plain, restitutions, together
 from rocking.theory.free_rocking import free_quarter_period
 
 LOGARITHMIC, LINEAR = 0.34, 0.4
@@ -179,3 +184,111 @@ def pulse_overturning_rule(kind: str, frequency: Any) -> Any:
     """
     slope = SLOPES[one_of("kind", kind, tuple(SLOPES))]
     return plain(1.0 + slope * np.asarray(between("frequency", frequency, 0.0, MAX_RATIO)))
+
+
+def contact_restitution(critical_angle: Any, fraction: Any) -> Any:
+    """Coefficient of restitution of a uniform block whose impact acts at a fraction k of half its width.
+
+    The angular momentum about the point of impact is conserved. The block then rotates about its corner:
+    e = (4 − 3(1 + k) sin²θcr)/(4 − 3(1 − k) sin²θcr). k = 1 is an impact at the corner, Housner's value 1 − (3/2) sin²θcr. k = 0 is
+    one at the centre of the base, without loss.
+
+    Parameters
+    ----------
+    critical_angle : float or array
+        Critical angle θcr in rad, in [0, π/2].
+    fraction : float or array
+        Distance k of the impact from the centre of the base, in units of half the width, in [0, 1]. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        e.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range, or if e is negative, for a squat block.
+
+    See Also
+    --------
+    equivalent_damping : Damping ratio that design rules derive from e.
+    rocking.Block : A block with any restitution.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> block = rk.Block(height=2.0, width=0.5)
+    >>> contact_restitution(block.critical_angle, [0.0, 0.5, 1.0]).round(6).tolist()
+    [1.0, 0.954887, 0.911765]
+    """
+    angle = between("critical_angle", critical_angle, 0.0, math.pi / 2)
+    angle, k = together(critical_angle=angle, fraction=between("fraction", fraction, 0.0, 1.0))
+    square = np.sin(angle) ** 2
+    found = np.asarray((4.0 - 3.0 * (1.0 + k) * square) / (4.0 - 3.0 * (1.0 - k) * square))
+    if (found < 0.0).any():
+        first = float(np.broadcast_to(angle, found.shape)[found < 0.0].flat[0])
+        allowed = "give a restitution that is not negative"
+        raise ValueError(refusal("critical_angle", allowed, first, "the block is too squat to rock on"))
+    return plain(found)
+
+
+MAX_MASS_RATIO = 1e6
+
+
+def rocking_frame(height: float, width: float, mass_ratio: float) -> Block:
+    """Block that moves like a frame of equal columns with a rigid beam on their tops.
+
+    The columns rock together, and the beam moves without rotation. With γ = m_b/(N m_c), of a beam and N columns,
+
+    - α̂ = α √((1 + 2γ)/(1 + 3γ)), by the inertia ratio (4/3)(1 + 3γ)/(1 + 2γ);
+    - ê = (1 − (3/2) sin²θcr + 3γ cos 2θcr)/(1 + 3γ), by the angular momentum of the frame at an impact.
+
+    The critical angle and the acceleration of lift-off are those of a column. A heavy beam makes the frame slower, so that it is
+    harder to overturn.
+
+    Parameters
+    ----------
+    height, width : float
+        Height and width of a column in metres, in [0.001, 1000].
+    mass_ratio : float
+        γ, mass of the beam over that of all columns, in [0, 10⁶]. 0 gives the column alone.
+
+    Returns
+    -------
+    Block
+        Block with the size of a column, the inertia ratio and the restitution of the frame.
+
+    Raises
+    ------
+    TypeError
+        If a value is not a real number.
+    ValueError
+        If a value lies outside its range, or if the restitution is negative, for squat columns.
+
+    See Also
+    --------
+    rocking.Block : A block with any inertia ratio and restitution.
+    contact_restitution : Restitution of other impacts.
+
+    References
+    ----------
+    Makris & Vassiliou (2013).
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> column, frame = rk.Block(9.6, 1.6), rocking_frame(9.6, 1.6, mass_ratio=4.0)
+    >>> round(frame.frequency_parameter / column.frequency_parameter, 4)
+    0.8321
+    >>> round(column.restitution, 4), round(frame.restitution, 4)
+    (0.9595, 0.9470)
+    """
+    ratio = within("mass_ratio", mass_ratio, 0.0, MAX_MASS_RATIO)
+    angle = Block(height, width, restitution=1.0).critical_angle
+    column = 1.0 - 1.5 * math.sin(angle) ** 2
+    restitution = (column + 3.0 * ratio * math.cos(2.0 * angle)) / (1.0 + 3.0 * ratio)
+    inertia_ratio = RECTANGLE * (1.0 + 3.0 * ratio) / (1.0 + 2.0 * ratio)
+    return Block(height, width, restitution=restitution, inertia_ratio=inertia_ratio)

@@ -10,10 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import Block, instance, reals
+from rocking.model.block import Block
+from rocking.model.validation import instance, reals
 from rocking.theory.arguments import plain, sizes, together
+from rocking.theory.free_rocking import CRITICAL_ENERGY, energy, heteroclinic_orbit
 from rocking.theory.melnikov import damping
-from rocking.theory.unforced_block import CRITICAL_ENERGY, energy, heteroclinic_orbit
 
 
 def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) -> Any:

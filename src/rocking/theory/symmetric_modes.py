@@ -13,7 +13,9 @@ import numpy as np
 
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.orbits import floquet, mode_admissibility, symmetric_mode
-from rocking.model import MAX_AMPLITUDE, PERIODS, Mode, refusal, whole, within
+from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
+from rocking.model.orbit import Mode
+from rocking.model.validation import refusal, whole, within
 from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restitutions, together
 
 

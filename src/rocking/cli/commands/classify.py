@@ -35,7 +35,7 @@ def classify(
     """Classify the response and report the evidence."""
     from rocking.cli.output import motion_files
     from rocking.cli.reports import classify as report
-    from rocking.response import classify as judge
+    from rocking.response.classify import classify as judge
 
     motion_files.check_picture(plot)
     system, start, block = ask.question(context.params)

@@ -55,7 +55,7 @@ def lyapunov(
     """Measure both Lyapunov exponents with their errors."""
     from rocking.cli.output.files import check_files
     from rocking.cli.reports import lyapunov as report
-    from rocking.response import lyapunov as measure
+    from rocking.response.lyapunov import lyapunov as measure
 
     files = check_files({"plot": plot, "csv": csv, "netcdf": netcdf})
     system, start, block = ask.question(context.params)

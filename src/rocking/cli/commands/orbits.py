@@ -53,7 +53,7 @@ def orbits(
     """
     from rocking.cli.output.files import check_files
     from rocking.cli.reports import orbits as report
-    from rocking.orbits import find_orbits
+    from rocking.orbits.find_orbits import find_orbits
 
     files = check_files({"csv": csv, "netcdf": netcdf})
     system, _, block = ask.question(context.params)

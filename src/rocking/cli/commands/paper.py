@@ -43,7 +43,8 @@ def paper(
         for known, title in PAPERS.items():
             print(f"{known}  {title}")
         return
-    from rocking.model import check_folder, counted
+    from rocking.model.files import check_folder
+    from rocking.model.text import counted
 
     name, *rest = figures if figures and figures[0] in PAPERS else (next(iter(PAPERS)), *(figures or ()))
     folder = Path("results") / name if output is None else output

@@ -58,7 +58,7 @@ def _differ(start: float, stop: float) -> bool:
 
 def _refused(allowed: str, text: str, example: str) -> typer.BadParameter:
     """Return the error for a text that is not what is allowed."""
-    from rocking.model import shown
+    from rocking.model.text import shown
 
     return typer.BadParameter(f"{allowed}; got {shown(text)} ({example})")
 

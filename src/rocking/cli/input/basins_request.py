@@ -15,7 +15,8 @@ from rocking.cli.output.files import SUFFIXES
 from rocking.cli.output.survey_run import carried_out
 
 if TYPE_CHECKING:
-    from rocking.model import BasinMap, Block
+    from rocking.model.block import Block
+    from rocking.model.survey_results import BasinMap
 
 DEFAULT_STARTS = 200
 """Number of initial states along an axis from -1 to 1, or from brace to brace."""
@@ -23,8 +24,8 @@ DEFAULT_STARTS = 200
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """Return the arguments given by options and study file; options take precedence."""
-    from rocking.model import within
-    from rocking.survey import BOUNDARY_WIDTHS
+    from rocking.model.validation import within
+    from rocking.survey.basin_boundaries import WIDTHS as BOUNDARY_WIDTHS
 
     checks: dict[str, Callable[[Any], Any]] = {
         **survey_quantities.fixed(*SYSTEM),
@@ -41,7 +42,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
 
 def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
     """Compute the basins; return them with the block if they are in SI."""
-    from rocking.survey import basin_map
+    from rocking.survey.basin_map import basin_map
 
     asked = {name: each for name, each in given.items() if name not in SUFFIXES}
     system, _, block = system_of({name: asked.pop(name) for name in (*SYSTEM, "model") if name in asked})

@@ -10,8 +10,10 @@ from rocking.cli.input.options import question
 from rocking.cli.option_names import RANGE_FORM, YourInput, computing, option, options, your_input
 
 if TYPE_CHECKING:
-    from rocking.model import Block, Orbit, State, System
-    from rocking.orbits import Branch
+    from rocking.model.block import Block
+    from rocking.model.orbit import Orbit
+    from rocking.model.system import State, System
+    from rocking.orbits.branch import Branch
 
 MAX_RESPONSE_PERIOD = 1000
 GUESS = {
@@ -46,7 +48,8 @@ class Study(NamedTuple):
 
 def study(given: Mapping[str, Any]) -> Study:
     """Return the study described by the options; YourInput unless exactly one of them is a range."""
-    from rocking.model import quantities, within
+    from rocking.model.system import quantities
+    from rocking.model.validation import within
 
     ranges = [name for name, value in given.items() if isinstance(value, Range)]
     if len(ranges) != 1:
@@ -67,7 +70,8 @@ def study(given: Mapping[str, Any]) -> Study:
 
 def compute(study: Study, response_period: int | None, step: float) -> tuple[Orbit, Branch]:
     """Return the orbit found and its branch; YourInput if there is none, or an argument is invalid."""
-    from rocking.orbits import check_range, check_step, continue_orbit
+    from rocking.orbits.continuation import continue_orbit
+    from rocking.orbits.parameter import check_range, check_step
 
     typed = FOLLOWED | {f"bounds of {study.parameter}": option(study.name)} | options("step")
     with your_input(typed):
@@ -80,7 +84,7 @@ def compute(study: Study, response_period: int | None, step: float) -> tuple[Orb
 
 def _approached(study: Study) -> Orbit:
     """Return the orbit that the response from the initial state approaches."""
-    from rocking.response import classify
+    from rocking.response.classify import classify
 
     with computing():
         verdict = classify(study.system, study.start)
@@ -94,8 +98,8 @@ def _approached(study: Study) -> Orbit:
 
 def _nearest(study: Study, response_period: int) -> Orbit:
     """Return an orbit near the initial state with the response period wanted; YourInput if Newton's method finds none."""
-    from rocking.model import whole
-    from rocking.orbits import find_orbit
+    from rocking.model.validation import whole
+    from rocking.orbits.find_orbit import find_orbit
 
     start = study.start
     given = {repr(start): f"--angle {start.angle:.6g} and --velocity {start.velocity:.6g}"}

@@ -11,7 +11,7 @@ from rocking.cli.input import level_request, study_file
 from rocking.cli.option_names import option, your_input
 
 if TYPE_CHECKING:
-    from rocking.model import Fragility
+    from rocking.model.record_results import Fragility
 
 SPREADS = ("height_spread", "width_spread", "restitution_spread")
 OWN = ("samples", "replicates", "seed", *SPREADS)
@@ -19,7 +19,7 @@ OWN = ("samples", "replicates", "seed", *SPREADS)
 
 def question(typed: Mapping[str, Any], file: Path | None) -> level_request.Question:
     """Return the request given by options and study file; options take precedence."""
-    from rocking.model import reals
+    from rocking.model.validation import reals
 
     checks: dict[str, study_file.Check] = {
         "limit": partial(reals, "limit"),
@@ -37,7 +37,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> level_request.Quest
 
 def compute(asked: level_request.Question) -> Fragility:
     """Compute the fragility; YourInput if an argument is invalid."""
-    from rocking.survey import fragility
+    from rocking.survey.fragility import fragility
 
     with your_input(asked.typed):
         return fragility(**asked.arguments, progress=True)

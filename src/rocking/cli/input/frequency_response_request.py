@@ -12,8 +12,9 @@ from rocking.cli.option_names import computing, option, options
 if TYPE_CHECKING:
     import numpy as np
 
-    from rocking.model import Block, System
-    from rocking.orbits import FrequencyResponse
+    from rocking.model.block import Block
+    from rocking.model.system import System
+    from rocking.orbits.frequency_response_result import FrequencyResponse
 
 DEFAULT_MODES = (1, 3)
 WORDS = {"modes must": "--modes must", "theory.symmetric_modes": "rocking modes"}
@@ -63,7 +64,7 @@ def study(given: Mapping[str, Any]) -> Study:
 
 def compute(study: Study, modes: Sequence[int] | None, step: float, max_cycles: int) -> FrequencyResponse:
     """Compute the frequency response; YourInput if an argument is invalid."""
-    from rocking.orbits import frequency_response
+    from rocking.orbits.frequency_response import frequency_response
 
     with computing(study.names | WORDS | options("restitution", "step", "max_cycles")):
         return frequency_response(

@@ -19,7 +19,7 @@ from rocking.cli.output.files import SUFFIXES
 if TYPE_CHECKING:
     import numpy as np
 
-    from rocking.model import RecordSet
+    from rocking.model.record_set import RecordSet
 
 BLOCK = ("height", "width", "restitution", "inertia_ratio")
 

@@ -14,7 +14,9 @@ from rocking.cli.option_names import COUNTS, START, SYSTEM, YourInput, option, o
 from rocking.cli.output import files
 from rocking.cli.output.files import SUFFIXES, check_files
 from rocking.cli.output.survey_run import ARGUMENTS, carried_out
-from rocking.model import TILES, Block, check_replaceable, instance, refusal
+from rocking.model.block import Block
+from rocking.model.files import TILES, check_replaceable
+from rocking.model.validation import instance, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -74,7 +76,7 @@ def _check_theory(asked: Question) -> None:
     if "plot" not in asked.places:
         raise YourInput(f"{option(name)} needs a plot: give --plot FILE as well")
     from rocking.plot.parts import legend, theory_curves
-    from rocking.survey import question as spec_of
+    from rocking.survey.harmonic_spec import question as spec_of
 
     with your_input(ARGUMENTS | options(*THEORY)):
         spec = spec_of(asked.arguments, 2, "a parametric map")
@@ -95,7 +97,7 @@ def files_of(asked: Question) -> dict[str, Path]:
 
 def compute(asked: Question) -> xr.Dataset:
     """Compute the map."""
-    from rocking.survey import parametric_map
+    from rocking.survey.parametric_map import parametric_map
 
     return carried_out(parametric_map, asked.arguments | {"store": asked.places.get("store")}, asked.block)
 
@@ -116,14 +118,14 @@ def write_tiles(found: xr.Dataset, path: Path, asked: Question) -> None:
 
 def write_netcdf(found: xr.Dataset, path: Path, asked: Question) -> None:
     """Write the map as netCDF, in parts; with SI input also its axes in SI."""
-    from rocking.survey import to_netcdf
+    from rocking.survey.store.export import to_netcdf
 
     to_netcdf(files.with_block(found, asked.block), path)
 
 
 def write_csv(found: xr.Dataset, path: Path, asked: Question) -> None:
     """Write one row per point as CSV: its system and all variables, flags as words; with a block also in SI."""
-    from rocking.survey import tables
+    from rocking.survey.store.export import tables
 
     rows = (files.with_fixed(table, found.kind.dims, found.attrs) for table in tables(found))
     files.write_csv((files.columns(row, asked.block) for row in rows), path)

@@ -13,7 +13,8 @@ import typer
 from rocking.cli.option_names import ARGUMENTS, NORMALISED, SI, START, SYSTEM, YourInput, option, your_input
 
 if TYPE_CHECKING:
-    from rocking.model import Block, Braces, State, System
+    from rocking.model.block import Block
+    from rocking.model.system import Braces, State, System
 
 
 Command = TypeVar("Command", bound=Callable[..., None])
@@ -26,7 +27,7 @@ def number(text: str) -> float:
     for kind in (int, float):
         with suppress(ValueError):
             return kind(text)
-    from rocking.model import shown
+    from rocking.model.text import shown
 
     raise typer.BadParameter(f"must be a number without a unit, such as 0.6; got {shown(text)}")
 
@@ -227,7 +228,10 @@ def kinds(given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
 
 def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     """Return the system, the initial state and, with SI input, the block of the options; YourInput if invalid."""
-    from rocking.model import MAX_START, MODELS, Block, Harmonic, State, System, within
+    from rocking.model.block import Block
+    from rocking.model.forcing import Harmonic
+    from rocking.model.system import MAX_START, MODELS, State, System
+    from rocking.model.validation import within
 
     given = DEFAULTS | dict(given)
     normalised, physical = kinds(given)
@@ -259,7 +263,7 @@ def pulsed(system: System, given: Mapping[str, Any]) -> System:
     """Return a system with one pulse of the amplitude and the period of its harmonic base motion."""
     from attrs import evolve
 
-    from rocking.model import Pulse
+    from rocking.model.forcing import Pulse
 
     for name in ("phase", "displacement"):
         if given[name]:
@@ -273,7 +277,7 @@ def pulsed(system: System, given: Mapping[str, Any]) -> System:
 
 def braces(given: Mapping[str, Any]) -> Braces | None:
     """Return the braces of the options, if there are any; YourInput if invalid."""
-    from rocking.model import Braces
+    from rocking.model.system import Braces
 
     if given["brace_angle"] is None:
         if given["brace_restitution"] is not None:

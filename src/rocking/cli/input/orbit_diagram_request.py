@@ -12,8 +12,9 @@ from rocking.cli.option_names import ARGUMENTS, AXIS_FORM, YourInput, option, op
 if TYPE_CHECKING:
     import numpy as np
 
-    from rocking.model import Block, State, System
-    from rocking.orbits import OrbitDiagram
+    from rocking.model.block import Block
+    from rocking.model.system import State, System
+    from rocking.orbits.orbit_diagram_result import OrbitDiagram
 
 OWN = options("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
 
@@ -56,8 +57,8 @@ def compute(
     study: Study, sweep: str, transient: int, cycles: int, section_phase: float | None
 ) -> OrbitDiagram:
     """Compute the diagram, with progress on stderr."""
-    from rocking.model import Bar
-    from rocking.orbits import orbit_diagram
+    from rocking.model.progress import Bar
+    from rocking.orbits.orbit_diagram import orbit_diagram
 
     total = len(study.values) * (2 if sweep == "both" else 1)
     with your_input(ARGUMENTS | OWN), Bar(total, "orbit diagram") as bar:

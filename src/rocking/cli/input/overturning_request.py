@@ -14,7 +14,8 @@ from rocking.cli.output.files import SUFFIXES
 from rocking.cli.output.survey_run import carried_out
 
 if TYPE_CHECKING:
-    from rocking.model import Block, OverturningCurve
+    from rocking.model.block import Block
+    from rocking.model.survey_results import OverturningCurve
 
 SCANNED_SI = tuple(name for name in SI if name != "displacement")
 """SI options except the displacement, whose acceleration depends on the frequency."""
@@ -55,7 +56,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
 
 def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
     """Compute the curve; return it with the block if it is in SI."""
-    from rocking.survey import overturning_amplitude
+    from rocking.survey.overturning_amplitude import overturning_amplitude
 
     shaken = {name: each for name, each in given.items() if name in (*ASKED, *SCANNED_SI, "model")}
     others = {name: each for name, each in given.items() if name not in (*shaken, *SUFFIXES)}

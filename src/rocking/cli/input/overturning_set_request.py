@@ -10,7 +10,7 @@ from rocking.cli.input import level_request
 from rocking.cli.option_names import computing
 
 if TYPE_CHECKING:
-    from rocking.model import OverturningSet
+    from rocking.model.record_results import OverturningSet
 
 OWN = ("angle", "polarity")
 
@@ -22,7 +22,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> level_request.Quest
 
 def compute(asked: level_request.Question) -> OverturningSet:
     """Compute the overturning set; YourInput if an argument is invalid."""
-    from rocking.survey import overturning_set
+    from rocking.survey.overturning_set import overturning_set
 
     with computing(asked.typed):
         return overturning_set(**asked.arguments)

@@ -13,7 +13,7 @@ from rocking.cli.input.survey_quantities import Question
 from rocking.cli.option_names import YourInput, option
 from rocking.cli.output.files import SUFFIXES
 from rocking.cli.output.survey_run import carried_out
-from rocking.model import instance
+from rocking.model.validation import instance
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,7 +63,7 @@ def _check_axes(given: Mapping[str, Any]) -> None:
 
 def compute(asked: Question) -> xr.Dataset:
     """Compute the spectrum."""
-    from rocking.survey import overturning_spectrum
+    from rocking.survey.overturning_spectrum import overturning_spectrum
 
     arguments = asked.arguments | {"store": asked.places.get("store")}
     return carried_out(overturning_spectrum, arguments, asked.block)

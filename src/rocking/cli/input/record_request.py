@@ -13,7 +13,9 @@ from rocking.cli.input import options as ask
 from rocking.cli.option_names import START, YourInput, option, options, your_input
 
 if TYPE_CHECKING:
-    from rocking.model import Block, Braces, GroundMotion, State
+    from rocking.model.block import Block
+    from rocking.model.ground_motion import GroundMotion
+    from rocking.model.system import Braces, State
 
 EXAMPLE = "example"
 MIN_PGA, MAX_PGA = 1e-9, 1e5
@@ -39,7 +41,7 @@ def record_path(text: str) -> Path:
     if not text:
         raise typer.BadParameter("must be the path of a file; got ''")
     if text == EXAMPLE:
-        from rocking.records import EXAMPLE_FILE
+        from rocking.records.read import FILE as EXAMPLE_FILE
 
         return EXAMPLE_FILE
     return Path(text)
@@ -47,7 +49,8 @@ def record_path(text: str) -> Path:
 
 def block_and_start(given: Mapping[str, Any]) -> tuple[Block, Braces | None, State]:
     """Return the block, its braces and the initial state of the options; YourInput if invalid."""
-    from rocking.model import MAX_START, State, within
+    from rocking.model.system import MAX_START, State
+    from rocking.model.validation import within
 
     block, braces = block_of(given), ask.braces(given)
     with your_input(ARGUMENTS):
@@ -56,7 +59,7 @@ def block_and_start(given: Mapping[str, Any]) -> tuple[Block, Braces | None, Sta
 
 def block_of(given: Mapping[str, Any]) -> Block:
     """Return the block of the options in SI; YourInput if invalid."""
-    from rocking.model import Block
+    from rocking.model.block import Block
 
     ask.require(given, (("height",), ("width",)), "--height and --width")
     more = {name: given[name] for name in ("restitution", "inertia_ratio") if given.get(name) is not None}
@@ -66,8 +69,11 @@ def block_of(given: Mapping[str, Any]) -> Block:
 
 def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
     """Return the ground motion of the options, scaled, and the warnings of the reader; YourInput if invalid."""
-    from rocking.model import GRAVITY, refuse_if, vertical_sentence, within
-    from rocking.records import RecordError, read_ground_motion
+    from rocking.model.block_formulas import GRAVITY
+    from rocking.model.ground_motion import vertical_sentence
+    from rocking.model.validation import refuse_if, within
+    from rocking.records.read import read_ground_motion
+    from rocking.records.text_file import RecordError
 
     if given["scale"] is not None and given["pga_g"] is not None:
         raise YourInput("give --scale or --pga-g, not both")

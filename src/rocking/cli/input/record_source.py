@@ -20,7 +20,7 @@ from rocking.cli.input.study_file import Check, Study, model, numbers
 from rocking.cli.option_names import YourInput, option, options, your_input
 
 if TYPE_CHECKING:
-    from rocking.model import RecordSet
+    from rocking.model.record_set import RecordSet
 
 READING = ("units", "step", "baseline")
 ARGUMENTS = options(*READING) | {"source": "SOURCE"}
@@ -127,7 +127,7 @@ def with_files(plot: str | None, csv: str, *, store: bool = False) -> Callable[[
 
 def checks() -> dict[str, Check]:
     """Return the checks of the entries of a study file that state the model, and how records are read."""
-    from rocking.model import instance
+    from rocking.model.validation import instance
 
     words = {name: partial(instance, name, kind=str) for name in ("units", "baseline")}
     return words | numbers("step") | {"model": model}
@@ -137,7 +137,8 @@ def record_set(
     sources: Sequence[Path], *, units: str | None = None, step: float | None = None, baseline: str = "none"
 ) -> tuple[RecordSet, list[str]]:
     """Return the records of the command line, and the warnings of the reader; YourInput if one cannot be read."""
-    from rocking.records import RecordError, read_record_set
+    from rocking.records.record_set import read_record_set
+    from rocking.records.text_file import RecordError
 
     given = sources[0] if len(sources) == 1 else list(sources)
     with your_input(ARGUMENTS), warnings.catch_warnings(record=True) as doubts:
@@ -151,7 +152,7 @@ def record_set(
 
 def drift_doubts(records: RecordSet) -> list[str]:
     """Return a warning of the records whose PGV and PGD are those of a drift; none without such a record."""
-    from rocking.model import listed
+    from rocking.model.text import listed
 
     doubts = {name: motion.drift_doubt for name, motion in zip(records.names, records, strict=True)}
     found = {name: as_options(doubt) for name, doubt in doubts.items() if doubt}
@@ -168,7 +169,7 @@ def files_of(places: Mapping[str, Path], records: RecordSet) -> dict[str, Path]:
     Records are also the files that a folder or a table names, and copies of them.
     """
     from rocking.cli.output.survey_run import files_of as survey_files
-    from rocking.model import shown_path
+    from rocking.model.text import shown_path
 
     files = survey_files(places)
     contents = {motion.file.sha256 for motion in records if motion.file is not None}

@@ -17,7 +17,7 @@ from rocking.cli.output.files import SUFFIXES
 from rocking.cli.output.survey_run import carried_out
 
 if TYPE_CHECKING:
-    from rocking.model import SafeBasin
+    from rocking.model.survey_results import SafeBasin
 
 # Words in messages of `safe_basin` → words on the command line.
 WORDS = {"a pair (low, high)": f"a range, {RANGE_FORM},", "low < high": "START < STOP"}
@@ -58,7 +58,7 @@ def _range(name: str, entry: Any) -> Any:
 
 def compute(asked: Question) -> SafeBasin:
     """Compute the safe basin."""
-    from rocking.survey import safe_basin
+    from rocking.survey.safe_basin import safe_basin
 
     found: SafeBasin = carried_out(safe_basin, asked.arguments, asked.block, WORDS)
     return found

@@ -10,7 +10,7 @@ from rocking.cli.input import level_request
 from rocking.cli.option_names import computing
 
 if TYPE_CHECKING:
-    from rocking.model import Sensitivity
+    from rocking.model.record_results import Sensitivity
 
 OWN = ("seed",)
 
@@ -25,7 +25,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> level_request.Quest
 
 def compute(asked: level_request.Question) -> Sensitivity:
     """Compute the sensitivity; YourInput if an argument is invalid."""
-    from rocking.survey import sensitivity
+    from rocking.survey.sensitivity import sensitivity
 
     with computing(asked.typed):
         return sensitivity(**asked.arguments)

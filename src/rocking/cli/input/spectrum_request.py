@@ -14,7 +14,8 @@ from rocking.cli.input import record_source, study_file, survey_quantities
 from rocking.cli.option_names import AXIS_FORM, YourInput, option, options, your_input
 from rocking.cli.output.files import SUFFIXES
 from rocking.cli.output.survey_run import carried_out
-from rocking.model import Block, RecordSet
+from rocking.model.block import Block
+from rocking.model.record_set import RecordSet
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -86,7 +87,8 @@ def _radians(degrees: Any) -> Any:
     """Return a slenderness or an axis in rad; YourInput outside its range, in degrees as typed."""
     import numpy as np
 
-    from rocking.survey import SLENDERNESSES, number_or_axis
+    from rocking.survey.motion_spec import SLENDERNESSES
+    from rocking.survey.spec import number_or_axis
 
     low, high = map(math.degrees, SLENDERNESSES)
     with your_input():
@@ -135,7 +137,7 @@ def _check_plot(asked: Question) -> None:
 
 def compute(asked: Question) -> xr.Dataset:
     """Compute the spectrum."""
-    from rocking.survey import rocking_spectrum
+    from rocking.survey.rocking_spectrum import rocking_spectrum
 
     arguments = {"records": asked.records, "store": asked.places.get("store")} | asked.arguments
     return carried_out(rocking_spectrum, arguments, typed=asked.typed)

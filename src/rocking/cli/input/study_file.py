@@ -31,7 +31,7 @@ def quantity(name: str, given: Any) -> Any:
 
     The entry is a number, an axis in a text as on the command line, a table of start, stop and count, or a list.
     """
-    from rocking.model import reals, whole
+    from rocking.model.validation import reals, whole
 
     if isinstance(given, str):
         check_unquoted(name, given, f"be a number or {AXIS_FORM}")
@@ -70,7 +70,7 @@ def _ends(name: str, given: Mapping[str, Any]) -> tuple[float, float]:
 def check_unquoted(name: str, given: str, allowed: str) -> None:
     """Raise TypeError for a number in quotation marks; `allowed` states what the entry must be."""
     from rocking.cli.input.options import number as number_of
-    from rocking.model import refusal
+    from rocking.model.validation import refusal
 
     with suppress(typer.BadParameter):
         number_of(given)
@@ -79,7 +79,7 @@ def check_unquoted(name: str, given: str, allowed: str) -> None:
 
 def number(name: str, given: Any) -> Any:
     """Return an entry that is a finite number; TOML also has nan and inf."""
-    from rocking.model import reals, refusal
+    from rocking.model.validation import reals, refusal
 
     if isinstance(given, str):
         check_unquoted(name, given, "be a number")
@@ -97,7 +97,8 @@ def numbers(*names: str) -> dict[str, Check]:
 
 def model(given: Any) -> Any:
     """Return the name of an equation of motion."""
-    from rocking.model import MODELS, one_of
+    from rocking.model.system import MODELS
+    from rocking.model.validation import one_of
 
     return one_of("model", given, MODELS)
 
@@ -115,7 +116,8 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
 
     Keys are the names of options, with hyphens or underscores.
     """
-    from rocking.model import shown_path, similar
+    from rocking.model.text import shown_path
+    from rocking.model.validation import similar
 
     said = _entries(path)
     _check_once(path, said)
@@ -140,7 +142,7 @@ def _entries(path: Path) -> dict[str, Any]:
     """Return the keys and values of a study file; YourInput if it cannot be read."""
     import tomllib
 
-    from rocking.model import shown_path
+    from rocking.model.text import shown_path
 
     try:
         return tomllib.loads(_text(path))
@@ -155,7 +157,7 @@ def _entries(path: Path) -> dict[str, Any]:
 
 def with_keys(message: str, path: Path, typed: Collection[str]) -> str:
     """Return a message with the keys of a study file that give the options named in it, except options `typed` as well."""
-    from rocking.model import shown_path
+    from rocking.model.text import shown_path
 
     given = [key for key in _entries(path) if key.replace("-", "_") not in typed]
     named = [
@@ -179,7 +181,7 @@ def _text(path: Path) -> str:
 
 def _check_once(path: Path, said: Mapping[str, Any]) -> None:
     """Raise YourInput for a key that occurs with hyphens and with underscores."""
-    from rocking.model import shown_path
+    from rocking.model.text import shown_path
 
     twice = [key for key in said if "-" in key and key.replace("-", "_") in said]
     if twice:
@@ -192,7 +194,7 @@ def _unknown(key: str, entry: Any, checks: Mapping[str, Check]) -> str:
     """Return the message for an unknown key as written in the file, with a known one if it is similar."""
     if _is_section(entry):
         return f"unknown {key!r} (a section: write the keys of options without sections)"
-    from rocking.model import similar
+    from rocking.model.validation import similar
 
     near = similar(key.replace("-", "_"), checks)
     if near is None:

@@ -52,7 +52,7 @@ def with_study(command: Command) -> Command:
 def _check(parameter: Parameter) -> study_file.Check | None:
     """Return the check of the entry for an option; None for an argument, and for `--json`."""
     from rocking.cli.input.survey_quantities import paths
-    from rocking.model import instance
+    from rocking.model.validation import instance
 
     kind, option = get_args(parameter.annotation)[:2]
     name, kinds = parameter.name, get_args(kind) or (kind,)
@@ -78,7 +78,7 @@ def _numbers(name: str, entry: Any) -> list[Any]:
 
 def _parsed(parser: Callable[[Any], Any], name: str, entry: Any) -> Any:
     """Return a number, an axis or a range as the parser of its option accepts it; an axis or a range may be a table."""
-    from rocking.model import refusal
+    from rocking.model.validation import refusal
 
     form = FORMS[parser]
     if isinstance(entry, Mapping):

@@ -13,7 +13,9 @@ from rocking.cli.input.axis import VARIES, Axis
 from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, number, quantity
 from rocking.cli.option_names import AXIS_FORM, QUANTITIES, SI, YourInput, option
-from rocking.model import Block, instance, quantities, reals, refusal, whole
+from rocking.model.block import Block
+from rocking.model.system import quantities
+from rocking.model.validation import instance, reals, refusal, whole
 
 if TYPE_CHECKING:
     import numpy as np
@@ -68,7 +70,7 @@ def _numbers(given: Mapping[str, Any]) -> dict[str, Any]:
 
 def block_of(given: Mapping[str, Any]) -> Block | None:
     """Return the block of SI input, else None; a varying restitution is replaced by its first value."""
-    from rocking.model import Block
+    from rocking.model.block import Block
 
     if "height" not in given:
         return None
@@ -112,8 +114,9 @@ def fixed(*names: str) -> dict[str, Check]:
 
 def counts(*names: str) -> dict[str, Check]:
     """Return the checks of entries that are whole numbers between limits."""
-    from rocking.response import MAX_CYCLES, MAX_PERIOD
-    from rocking.survey import MAX_PHASES, MAX_SAMPLES, MAX_SEED
+    from rocking.response.classify import MAX_CYCLES, MAX_PERIOD
+    from rocking.survey.overturning_amplitude import MAX_PHASES
+    from rocking.survey.sampling.random_points import MAX_SAMPLES, MAX_SEED
 
     limits = {
         "samples": (1, MAX_SAMPLES),
@@ -137,7 +140,7 @@ def paths(*names: str) -> dict[str, Check]:
 
 
 def _in_range(name: str, entry: Any) -> Any:
-    from rocking.survey import check_quantity
+    from rocking.survey.harmonic_spec import check_quantity
 
     read = quantity(name, entry)
     for each in read[:2] if isinstance(read, Axis) else (read,):
@@ -146,7 +149,7 @@ def _in_range(name: str, entry: Any) -> Any:
 
 
 def _number(name: str, entry: Any) -> Any:
-    from rocking.survey import check_quantity
+    from rocking.survey.harmonic_spec import check_quantity
 
     number(name, entry)
     return reals(name, entry) if name in SI else check_quantity(name, entry)

@@ -7,17 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.option_names import INPUTS, QUANTITIES, YourInput, option, your_input
-from rocking.model import (
-    PHYSICAL,
-    SAME_IN_SI,
-    Block,
-    block_attributes,
-    check_writable,
-    replacing,
-    replacing_hdf5,
-    resolve_path,
-    shown_path,
-)
+from rocking.model.block import PHYSICAL, SAME_IN_SI, Block, block_attributes
+from rocking.model.files import check_writable, replacing, replacing_hdf5, resolve_path
+from rocking.model.text import shown_path
 
 if TYPE_CHECKING:
     import xarray as xr

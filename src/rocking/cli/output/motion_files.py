@@ -11,8 +11,10 @@ from rocking.cli.output import files
 from rocking.cli.output.files import PICTURES, SUFFIXES, check_files, write_dataset
 
 if TYPE_CHECKING:
-    from rocking.model import Block, State, System, Verdict
-    from rocking.motion import Motion
+    from rocking.model.block import Block
+    from rocking.model.system import State, System
+    from rocking.model.verdict import Verdict
+    from rocking.motion.motion import Motion
 
 FILMS = (".gif", ".mp4")
 ROWS_AT_ONCE = 100_000
@@ -26,8 +28,8 @@ def run(system: System, start: State, cycles: int | None, wanted: tuple[str, ...
     Events are dropped for too many cycles, and for too many events if no file needs them. A base motion of finite length
     has no cycles: None.
     """
-    from rocking.model import TooManyEvents
-    from rocking.motion import simulate as march
+    from rocking.model.validation import TooManyEvents
+    from rocking.motion.simulate import simulate as march
 
     if cycles is not None and not cycles <= MAX_CYCLES_KEPT:
         counted = march(system, start, cycles=cycles, record="none")
@@ -108,7 +110,7 @@ def tables(motion: Motion, block: Block | None) -> Iterator[dict[str, Any]]:
     """Yield tables (columns by heading) of limited length, so that memory does not grow with the motion."""
     import numpy as np
 
-    from rocking.motion import end_shown, sample_step
+    from rocking.motion.motion import end_shown, sample_step
 
     step, end = sample_step(motion), end_shown(motion)
     count = 1 + int(end / step * (1 + 1e-12))

@@ -13,7 +13,9 @@ from rocking.cli.option_names import AXIS_FORM, NORMALISED, as_typed, option, op
 from rocking.cli.output.files import SUFFIXES, check_files, columns, with_block, write_result
 
 if TYPE_CHECKING:
-    from rocking.model import BasinMap, Block, OverturningCurve, Share
+    from rocking.model.block import Block
+    from rocking.model.share import Share
+    from rocking.model.survey_results import BasinMap, OverturningCurve
 
 OWN = (
     "samples",
@@ -66,7 +68,7 @@ def complete(store: Path | None) -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         if store is not None:
-            from rocking.model import shown_path
+            from rocking.model.text import shown_path
 
             note = f"{option('store')} {shown_path(store)} is complete; repeat the command to write the remaining files"
             print(f"rocking: {note}", file=sys.stderr)

@@ -16,7 +16,10 @@ from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.survey_run import MAX_ROWS, share_record
 from rocking.cli.reports.motion import asked_of, physical_of, question_of
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import BasinMap, Block, System, UncertaintyExponent, counted
+from rocking.model.block import Block
+from rocking.model.survey_results import BasinMap, UncertaintyExponent
+from rocking.model.system import System
+from rocking.model.text import counted
 
 
 def write(found: BasinMap, files: Mapping[str, Path], block: Block | None) -> None:
@@ -26,7 +29,7 @@ def write(found: BasinMap, files: Mapping[str, Path], block: Block | None) -> No
 
 def _tables(found: BasinMap) -> Iterator[dict[str, np.ndarray]]:
     """Yield columns by name: the initial state, its attractor as a number and by name, and all other variables."""
-    from rocking.survey import tables
+    from rocking.survey.store.export import tables
 
     names = np.array([each.name for each in found.attractors])
     # Random initial states lie along one dimension, and their angles and velocities are no axes.

@@ -13,12 +13,14 @@ from rocking.cli.output.files import columns, with_block, with_fixed, write_resu
 from rocking.cli.reports.motion import asked_of, in_si, physical_of, question_of, reach, state_in_si
 from rocking.cli.reports.orbits import multiplier_columns, orbit_record, orbit_warnings
 from rocking.cli.reports.validity import warned
-from rocking.model import PHYSICAL, Block, Orbit, quantities
+from rocking.model.block import PHYSICAL, Block
+from rocking.model.orbit import Orbit
+from rocking.model.system import quantities
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.orbits import Branch, SpecialPoint
+    from rocking.orbits.branch import Branch, SpecialPoint
 
 SAME_QUANTITY = {"period": "frequency", "frequency": "period"}
 """Quantities that vary together."""

@@ -13,7 +13,10 @@ from rocking.cli.option_names import as_typed, options
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports import validity
 from rocking.cli.reports.motion import asked, beyond, physical, question, reach
-from rocking.model import Block, Proof, Verdict, counted, plus_minus
+from rocking.model.block import Block
+from rocking.model.proof import Proof
+from rocking.model.text import counted, plus_minus
+from rocking.model.verdict import Verdict
 
 BUDGET = options("max_cycles", "max_period")
 

@@ -12,7 +12,8 @@ import attrs
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import write_result
 from rocking.cli.reports.validity import equation_line, survey_warnings, warned
-from rocking.model import Fragility, counted, limit_name, percent_with_ends
+from rocking.model.record_results import Fragility, limit_name
+from rocking.model.text import counted, percent_with_ends
 
 COLUMNS = ("fraction", "fraction_low", "fraction_high", "fit", "fit_low", "fit_high")
 FEW = 10

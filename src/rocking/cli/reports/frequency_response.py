@@ -14,10 +14,11 @@ from rocking.cli.output.files import columns, with_block, with_fixed, write_resu
 from rocking.cli.reports.branch import value_record
 from rocking.cli.reports.motion import asked_in_si, in_si, reach
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import Block
+from rocking.model.block import Block
 
 if TYPE_CHECKING:
-    from rocking.orbits import Branch, FrequencyResponse
+    from rocking.orbits.branch import Branch
+    from rocking.orbits.frequency_response_result import FrequencyResponse
 
 
 def write(found: FrequencyResponse, block: Block | None, files: Mapping[str, Path]) -> None:

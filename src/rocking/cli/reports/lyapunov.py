@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import with_block, write_result
 from rocking.cli.reports.motion import asked, beyond, physical_of, question
-from rocking.model import Block, counted, plus_minus
+from rocking.model.block import Block
+from rocking.model.text import counted, plus_minus
 
 if TYPE_CHECKING:
     import numpy as np
     import xarray as xr
 
-    from rocking.response import LyapunovSpectrum
+    from rocking.response.lyapunov import LyapunovSpectrum
 
 
 def write(spectrum: LyapunovSpectrum, block: Block | None, files: Mapping[str, Path]) -> None:

@@ -12,7 +12,9 @@ from rocking.cli.option_names import COUNTS, QUANTITIES
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports.motion import asked_in_si, beyond, in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import Block, Criterion, counted, percent
+from rocking.model.block import Block
+from rocking.model.text import counted, percent
+from rocking.model.verdict import Criterion
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 
 def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: bool) -> None:
     """Print the fractions of the response types on stdout, and the paths of the files."""
-    from rocking.survey import counts
+    from rocking.survey.store.export import counts
 
     kinds, criteria = counts(found, "kind"), counts(found, "evidence")
     full = "critical_angle" in (*found.coords, *found.attrs)

@@ -16,7 +16,10 @@ from rocking.cli.output.files import columns, write_csv
 from rocking.cli.reports.motion import asked_of, in_si, physical_of, reach
 from rocking.cli.reports.orbits import multiplier_columns
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import Block, Mode, System, counted
+from rocking.model.block import Block
+from rocking.model.orbit import Mode
+from rocking.model.system import System
+from rocking.model.text import counted
 
 
 @frozen

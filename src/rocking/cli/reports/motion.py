@@ -12,25 +12,19 @@ import numpy as np
 
 from rocking.cli.output.console import WARNING, Row, print_json, print_table
 from rocking.cli.reports import validity
-from rocking.model import (
-    GRAVITY,
-    PHYSICAL,
-    Block,
-    Pulse,
-    System,
-    Verdict,
-    angle_doubt,
-    counted,
-    ordinal,
-    quantities,
-)
-from rocking.motion import has_cycles
+from rocking.model.block import PHYSICAL, Block
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.forcing import Pulse
+from rocking.model.system import System, angle_doubt, quantities
+from rocking.model.text import counted, ordinal
+from rocking.model.verdict import Verdict
+from rocking.motion.motion import has_cycles
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.motion import Motion
-    from rocking.response import LyapunovSpectrum
+    from rocking.motion.motion import Motion
+    from rocking.response.lyapunov import LyapunovSpectrum
 
 
 def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:

@@ -13,10 +13,10 @@ from rocking.cli.output import files
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports.motion import asked_in_si, beyond, in_si, reach
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import PHYSICAL, Block
+from rocking.model.block import PHYSICAL, Block
 
 if TYPE_CHECKING:
-    from rocking.orbits import OrbitDiagram
+    from rocking.orbits.orbit_diagram_result import OrbitDiagram
 
 
 def show(

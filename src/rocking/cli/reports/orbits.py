@@ -16,10 +16,12 @@ from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.classify import multipliers_shown, proof_record
 from rocking.cli.reports.motion import asked_of, physical_of, question_of, state_in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import Block, Orbit, State, System
+from rocking.model.block import Block
+from rocking.model.orbit import Orbit
+from rocking.model.system import State, System
 
 if TYPE_CHECKING:
-    from rocking.orbits import Orbits
+    from rocking.orbits.find_orbits import Orbits
 
 ROUNDING = 1e-12
 """Size of an angle or a velocity below which it is shown as 0."""

@@ -13,7 +13,9 @@ from rocking.cli.output.files import with_fixed
 from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import GRAVITY, PHYSICAL, Block, OverturningCurve
+from rocking.model.block import PHYSICAL, Block
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.survey_results import OverturningCurve
 
 if TYPE_CHECKING:
     import xarray as xr

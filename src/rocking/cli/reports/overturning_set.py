@@ -12,7 +12,9 @@ from rocking.cli.output.files import write_result
 from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.motion import size_of
 from rocking.cli.reports.validity import equation_line, survey_warnings, warned
-from rocking.model import OverturningSet, block_attributes, percent
+from rocking.model.block import block_attributes
+from rocking.model.record_results import OverturningSet
+from rocking.model.text import percent
 
 
 def write(found: OverturningSet, files: Mapping[str, Path]) -> None:

@@ -13,7 +13,9 @@ from rocking.cli.output.files import columns, with_block, with_fixed, write_resu
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.spectrum import axes_of, undecided, values
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import Block, Outcome, counted, percent
+from rocking.model.block import Block
+from rocking.model.text import counted, percent
+from rocking.model.verdict import Outcome
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,7 +25,7 @@ MODES = ("no impact", "1 impact", "2 or more impacts")
 
 def write(found: xr.Dataset, files: Mapping[str, Path], block: Block | None) -> None:
     """Write the plot, one row per run as CSV, and the dataset; with a block also in SI."""
-    from rocking.survey import tables
+    from rocking.survey.store.export import tables
 
     write_result(
         files,
@@ -37,7 +39,7 @@ def write(found: xr.Dataset, files: Mapping[str, Path], block: Block | None) -> 
 
 def show(found: xr.Dataset, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
     """Print the fractions of the outcomes and of the modes of overturning, and the paths of the files."""
-    from rocking.survey import counts
+    from rocking.survey.store.export import counts
 
     outcomes, doubtful = counts(found, "outcome"), counts(found, "certified")["undecided"]
     full = "critical_angle" in (*found.coords, *found.attrs)

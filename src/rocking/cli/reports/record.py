@@ -12,10 +12,14 @@ import attrs
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports import motion as common
 from rocking.cli.reports import validity
-from rocking.model import GRAVITY, Block, GroundMotion, Outcome, counted
+from rocking.model.block import Block
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.text import counted
+from rocking.model.verdict import Outcome
 
 if TYPE_CHECKING:
-    from rocking.motion import Motion
+    from rocking.motion.motion import Motion
 
 DIGITS_OF_DIGEST = 12
 

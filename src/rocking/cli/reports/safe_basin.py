@@ -13,7 +13,10 @@ from rocking.cli.output.files import columns, with_block, with_fixed, write_resu
 from rocking.cli.output.survey_run import MAX_ROWS, share_record
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import GRAVITY, PHYSICAL, Block, SafeBasin, percent
+from rocking.model.block import PHYSICAL, Block
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.survey_results import SafeBasin
+from rocking.model.text import percent
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,7 +27,7 @@ THRESHOLDS = {"heteroclinic": "exact tangency A*", "melnikov": "Melnikov's A_M"}
 
 def write(found: SafeBasin, block: Block | None, files: Mapping[str, Path]) -> None:
     """Write the plot, one row per amplitude as CSV, and the dataset; with a block also in SI."""
-    from rocking.survey import tables
+    from rocking.survey.store.export import tables
 
     data = found.dataset
     write_result(

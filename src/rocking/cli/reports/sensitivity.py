@@ -11,7 +11,9 @@ from rocking.cli.output.files import write_csv, write_dataset
 from rocking.cli.reports.fragility import few_records
 from rocking.cli.reports.motion import size_of
 from rocking.cli.reports.validity import equation_line, survey_warnings, warned
-from rocking.model import Sensitivity, block_attributes, counted, percent_with_ends
+from rocking.model.block import block_attributes
+from rocking.model.record_results import Sensitivity
+from rocking.model.text import counted, percent_with_ends
 
 COLUMNS = ("change", "share", "share_low", "share_high", "flipped", "runs", "undecided")
 

@@ -12,7 +12,9 @@ import numpy as np
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import write_result
 from rocking.cli.reports.validity import equation, shape_warnings, warned
-from rocking.model import PHYSICAL, RecordSet, counted, percent
+from rocking.model.block import PHYSICAL
+from rocking.model.record_set import RecordSet
+from rocking.model.text import counted, percent
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,7 +35,7 @@ def write(found: xr.Dataset, files: Mapping[str, Path]) -> None:
 
 def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
     """Yield columns by heading, with units: the record, the quantities that vary, and the results."""
-    from rocking.survey import tables as rows_of
+    from rocking.survey.store.export import tables as rows_of
 
     for table in rows_of(found.drop_vars(["pga", "frequency_parameter"], errors="ignore")):
         columns: dict[str, np.ndarray] = {}
@@ -52,7 +54,7 @@ def show(
     found: xr.Dataset, records: RecordSet, doubts: Sequence[str], files: Sequence[Path], *, as_json: bool
 ) -> None:
     """Print the fractions of the outcomes on stdout, with the warnings `doubts` of the reader, and the paths of the files."""
-    from rocking.survey import counts
+    from rocking.survey.store.export import counts
 
     outcomes = counts(found, "outcome")
     doubtful = counts(found, "certified")["undecided"]

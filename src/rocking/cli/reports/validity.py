@@ -10,10 +10,12 @@ import attrs
 
 from rocking.cli.output.console import WARNING, Row
 from rocking.cli.output.motion_files import MAX_CYCLES_KEPT, run
-from rocking.model import Block, Verdict, counted
+from rocking.model.block import Block
+from rocking.model.text import counted
+from rocking.model.verdict import Verdict
 
 if TYPE_CHECKING:
-    from rocking.motion import Motion
+    from rocking.motion.motion import Motion
 
 FIRST = 200
 """Number of initial cycles over which the validity of a non-periodic response is evaluated."""
@@ -74,7 +76,7 @@ def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
 
 def equation(critical_angle: float, *, full: bool, braced: bool = False) -> str:
     """Return the equation of motion in words, that of small angles with its errors for |θ| ≤ θcr, in rad."""
-    from rocking.motion import slender_errors
+    from rocking.motion.model_warnings import slender_errors
 
     if full:
         return "full"
@@ -95,7 +97,7 @@ def survey_warnings(block: Block, model: str) -> list[str]:
 
 def shape_warnings(height: float, critical_angle: float, *, full: bool) -> Iterator[str]:
     """Yield the warnings about blocks of many shapes, up to a height in m and a critical angle in rad."""
-    from rocking.motion import height_warnings, proportion_warnings
+    from rocking.motion.model_warnings import height_warnings, proportion_warnings
 
     yield from height_warnings(height)
     if not full:
@@ -108,7 +110,7 @@ def warnings(block: Block | None, amplitudes: Any, restitutions: Any, *, full: b
         return []
     import numpy as np
 
-    from rocking.motion import block_warnings
+    from rocking.motion.model_warnings import block_warnings
 
     return list(block_warnings(block, amplitudes, float(np.min(restitutions)), full=full))
 

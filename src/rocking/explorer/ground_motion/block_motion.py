@@ -11,8 +11,11 @@ from attrs import frozen
 from rocking.explorer.ground_motion.ground import Ground, thinned
 from rocking.explorer.ground_motion.size_map import ANGLES, OVERTURNED, STILL
 from rocking.explorer.ground_motion.view import GroundView
-from rocking.model import GRAVITY, Block, Outcome
-from rocking.motion import Motion, end_shown, simulate
+from rocking.model.block import Block
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.verdict import Outcome
+from rocking.motion.motion import Motion, end_shown
+from rocking.motion.simulate import simulate
 
 FEWEST, STEPS = 4_000, 20_000
 """Smallest and largest number of times at which the angle is computed before it is thinned."""

@@ -10,8 +10,11 @@ import numpy as np
 from attrs import define, field
 
 from rocking.explorer.ground_motion.view import GroundView
-from rocking.model import GRAVITY, GroundMotion, Pulse, vertical_sentence
-from rocking.records import example_ground_motion, read_apart, synthetic_ground_motions
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.forcing import Pulse
+from rocking.model.ground_motion import GroundMotion, vertical_sentence
+from rocking.records.read import example_ground_motion, read_apart
+from rocking.records.synthetic import synthetic_ground_motions
 
 SEED = 1
 MAX_FILE = 50_000_000

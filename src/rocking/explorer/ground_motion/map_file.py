@@ -8,7 +8,8 @@ import numpy as np
 
 from rocking.explorer.ground_motion.size_map import SizePicture, SizePlane
 from rocking.explorer.ground_motion.view import GroundView, address
-from rocking.model import VERSION, Outcome
+from rocking.model.package import VERSION
+from rocking.model.verdict import Outcome
 
 
 def netcdf(plane: SizePlane, picture: SizePicture, name: str, shown: GroundView) -> bytes:

@@ -6,7 +6,8 @@ import json
 from importlib.resources import files
 
 from rocking.explorer.ground_motion.view import SOURCES, UNITS
-from rocking.model import KINDS, VERSION
+from rocking.model.forcing import KINDS
+from rocking.model.package import VERSION
 
 NAMES = {
     "example": "Loma Prieta 1989 (example)",

@@ -16,8 +16,8 @@ from rocking.explorer.ground_motion.ground import Ground, ground_of
 from rocking.explorer.ground_motion.map_file import netcdf
 from rocking.explorer.ground_motion.size_map import SizePicture, SizePlane, SizeRefinement
 from rocking.explorer.ground_motion.view import DEFAULT, GroundView
-from rocking.model import TooManyEvents
-from rocking.survey import BlockEndings
+from rocking.model.validation import TooManyEvents
+from rocking.survey.measures.block_endings import BlockEndings
 
 UNFINISHED = "the map is not complete: save it when it is"
 

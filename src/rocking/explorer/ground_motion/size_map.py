@@ -16,10 +16,11 @@ from matplotlib.colors import to_hex
 from rocking.explorer.ground_motion.view import INTERVALS
 from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
-from rocking.model import Outcome, percent
+from rocking.model.text import percent
+from rocking.model.verdict import Outcome
 from rocking.plot import palette
 from rocking.plot.parts import style
-from rocking.survey import BlockEndings
+from rocking.survey.measures.block_endings import BlockEndings
 
 POINTS = INTERVALS + 1
 """Points along each side of the finest map."""

@@ -23,7 +23,11 @@ from rocking.explorer.field_readers import (
 )
 from rocking.explorer.form_fields import at_width
 from rocking.explorer.view_state import Span
-from rocking.model import KINDS, MODELS, STEPS, Block, refusal
+from rocking.model.block import Block
+from rocking.model.forcing import KINDS
+from rocking.model.ground_motion import STEPS
+from rocking.model.system import MODELS
+from rocking.model.validation import refusal
 
 SOURCES = ("example", "synthetic-1", "synthetic-2", "synthetic-3", "pulse", "file")
 UNITS = ("", "m/s²", "cm/s²", "mm/s²", "g", "gal")

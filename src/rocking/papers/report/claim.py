@@ -9,7 +9,7 @@ from enum import StrEnum
 
 from attrs import evolve, frozen
 
-from rocking.model import missing_extra
+from rocking.model.package import missing_extra
 
 PROVABLE = not missing_extra("proof")
 """True if the extra `proof` is installed. Then the report proves its periodic responses, too."""

@@ -13,7 +13,8 @@ from pathlib import Path
 from attrs import frozen
 from PIL import Image
 
-from rocking.model import VERSION, replacing
+from rocking.model.files import replacing
+from rocking.model.package import VERSION
 from rocking.papers.report.claim import Chapter, Finding, Judged, Standing
 from rocking.papers.report.table_files import write_table
 

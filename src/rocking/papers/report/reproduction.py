@@ -10,7 +10,11 @@ import matplotlib.style
 from attrs import frozen
 
 import rocking as rk
-from rocking.model import Bar, check_folder, counted, instance, require_extra
+from rocking.model.files import check_folder
+from rocking.model.package import require_extra
+from rocking.model.progress import Bar
+from rocking.model.text import counted
+from rocking.model.validation import instance
 from rocking.papers.report import page
 from rocking.papers.report.claim import Chapter
 from rocking.papers.report.workers import Step, carry_out

@@ -7,7 +7,7 @@ import io
 from collections.abc import Sequence
 from pathlib import Path
 
-from rocking.model import replacing
+from rocking.model.files import replacing
 from rocking.papers.report.claim import typeset
 
 

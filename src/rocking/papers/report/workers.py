@@ -21,8 +21,8 @@ from typing import Any, ParamSpec, TypeVar
 
 from attrs import frozen
 
-from rocking.model import Bar
-from rocking.survey import cores
+from rocking.model.progress import Bar
+from rocking.survey.engine.tile_loop import cores
 
 Given = ParamSpec("Given")
 Result = TypeVar("Result")

@@ -16,7 +16,7 @@ import numpy as np
 from attrs import asdict, fields, frozen
 
 import rocking as rk
-from rocking.model import plus_minus
+from rocking.model.text import plus_minus
 from rocking.papers.report.table_files import write_table
 from rocking.papers.report.workers import shared
 from rocking.papers.yim_lin_1991.cases import BRACED, CHAOTIC, PERIODIC, QUASI_PERIODIC

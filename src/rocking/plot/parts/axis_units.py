@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
-from rocking.model import Block, instance
+from rocking.model.block import Block
+from rocking.model.validation import instance
 
 
 @frozen

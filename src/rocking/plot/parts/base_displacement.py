@@ -7,7 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.model import Block, Forcing, Harmonic, PiecewiseLinear, Pulse
+from rocking.model.block import Block
+from rocking.model.forcing import Forcing, Harmonic, PiecewiseLinear, Pulse
 
 
 def base_displacement(forcing: Forcing, block: Block, times: NDArray) -> tuple[NDArray, float, float | None]:

@@ -6,8 +6,9 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Orbit, Stability, refusal
-from rocking.orbits import BRANCHES_OFF, Branch
+from rocking.model.orbit import Orbit, Stability
+from rocking.model.validation import refusal
+from rocking.orbits.branch import BRANCHES_OFF, Branch
 from rocking.plot.parts.axis_units import Quantities
 
 Drawn = TypeVar("Drawn")

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.orbits import BifurcationCurve
+from rocking.orbits.bifurcation_curve import BifurcationCurve
 from rocking.plot.parts import style
 from rocking.plot.parts.branch_lines import unless_there
 

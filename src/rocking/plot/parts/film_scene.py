@@ -11,7 +11,7 @@ from matplotlib.patches import Polygon, Rectangle
 from matplotlib.transforms import Affine2D
 from numpy.typing import NDArray
 
-from rocking.model import Block
+from rocking.model.block import Block
 from rocking.plot.parts import style
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from rocking.model import Block
+from rocking.model.block import Block
 
 SYMBOLS = {
     "I_A": "$I_A$",

@@ -10,7 +10,8 @@ import numpy as np
 from attrs import frozen
 from matplotlib.colors import to_hex, to_rgb
 
-from rocking.model import Kind, Verdict, one_of
+from rocking.model.validation import one_of
+from rocking.model.verdict import Kind, Verdict
 from rocking.plot import palette
 from rocking.plot.parts import style
 

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import refusal, refuse_if, require_extra, resolve_path, shown_path
+from rocking.model.files import resolve_path
+from rocking.model.package import require_extra
+from rocking.model.text import shown_path
+from rocking.model.validation import refusal, refuse_if
 from rocking.plot.parts.legend import NONE, looks
 
 if TYPE_CHECKING:

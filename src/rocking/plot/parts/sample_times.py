@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.model import instance, refusal, refuse_if, within
-from rocking.motion import Motion, end_shown, fallen, has_cycles
+from rocking.model.validation import instance, refusal, refuse_if, within
+from rocking.motion.motion import Motion, end_shown, fallen, has_cycles
 
 SAMPLES_PER_TIME = 64
 SAMPLES_PER_PICTURE = 1000

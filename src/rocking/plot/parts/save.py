@@ -8,7 +8,8 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.model import check_writable, refusal, replacing, within
+from rocking.model.files import check_writable, replacing
+from rocking.model.validation import refusal, within
 
 # Without these matplotlib writes the date and its own version into the file.
 METADATA = {

@@ -14,7 +14,8 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullLocator, ScalarFormatter
 from numpy.typing import NDArray
 
-from rocking.model import Block, instance, members, refusal, refuse_if, whole, within
+from rocking.model.block import Block
+from rocking.model.validation import instance, members, refusal, refuse_if, whole, within
 from rocking.plot import palette
 from rocking.plot.parts import figures
 

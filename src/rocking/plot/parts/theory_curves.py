@@ -13,7 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from rocking.model import MAX_AMPLITUDE, members, one_of, refusal, refuse_if
+from rocking.model.forcing import MAX_AMPLITUDE
+from rocking.model.validation import members, one_of, refusal, refuse_if
 from rocking.plot.parts import style
 from rocking.plot.parts.style import DOTTED
 from rocking.theory import (

@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 from PIL import Image
 
-from rocking.model import replacing
+from rocking.model.files import replacing
 from rocking.plot.parts import style
 from rocking.plot.parts.save import check_path
 

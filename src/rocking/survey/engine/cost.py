@@ -11,7 +11,7 @@ from threading import Timer
 import numpy as np
 from attrs import frozen
 
-from rocking.model import counted
+from rocking.model.text import counted
 from rocking.survey.measurement import Batch, Measurement, compute
 from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Level

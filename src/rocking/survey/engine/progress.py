@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import Bar, percent
+from rocking.model.progress import Bar
+from rocking.model.text import percent
 from rocking.survey.measurement import Measurement
 from rocking.survey.store.export import flags
 

@@ -8,7 +8,10 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rocking.model import Bar, instance, require_extra, shown_path
+from rocking.model.package import require_extra
+from rocking.model.progress import Bar
+from rocking.model.text import shown_path
+from rocking.model.validation import instance
 from rocking.survey.engine.cost import cost
 from rocking.survey.engine.progress import Watcher
 from rocking.survey.engine.tile_loop import cores, run

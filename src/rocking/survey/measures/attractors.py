@@ -11,9 +11,11 @@ import numpy as np
 from rocking.kernels import batch
 from rocking.kernels.classify import attractor_anchor as kernel
 from rocking.kernels.classify import verdict_record
-from rocking.model import NO_BRACES, Attractor, Kind, State, System, Verdict, quantities, system_of
-from rocking.motion import simulate
-from rocking.response import budget, classify
+from rocking.model.survey_results import Attractor
+from rocking.model.system import NO_BRACES, State, System, quantities, system_of
+from rocking.model.verdict import Kind, Verdict
+from rocking.motion.simulate import simulate
+from rocking.response.classify import budget, classify
 from rocking.survey.harmonic_spec import Points, points
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.chaotic_means import averages, grouped

@@ -8,7 +8,9 @@ import numpy as np
 
 from rocking.kernels.march import ending as ends
 from rocking.kernels.march import finite_runs
-from rocking.model import GroundMotion, Pulse, RecordSet
+from rocking.model.forcing import Pulse
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.record_set import RecordSet
 from rocking.survey.measurement import Arrays
 from rocking.survey.measures import pulse_ending
 from rocking.survey.measures.ending import answers, judge

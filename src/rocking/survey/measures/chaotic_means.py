@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from rocking.model import State, System, system_of
-from rocking.motion import simulate
+from rocking.model.system import State, System, system_of
+from rocking.motion.simulate import simulate
 from rocking.survey.harmonic_spec import SYSTEM, Points
 
 MAX_FOLLOWED = 20_000

@@ -12,7 +12,8 @@ from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import ending as ends
 from rocking.kernels.march import finite_runs as kernel
 from rocking.kernels.march import march
-from rocking.model import Outcome, PiecewiseLinear
+from rocking.model.forcing import PiecewiseLinear
+from rocking.model.verdict import Outcome
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.motion_spec import Runs
 

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from rocking.kernels import batch
-from rocking.model import Share
-from rocking.response import budget
+from rocking.model.share import Share
+from rocking.response.classify import budget
 from rocking.survey.harmonic_spec import Points
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.measures.response import VARIABLES

@@ -10,7 +10,7 @@ import numpy as np
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import ending as ends
 from rocking.kernels.march import finite_runs as kernel
-from rocking.model import SINES, Pulse
+from rocking.model.forcing import SINES, Pulse
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.measures.ending import METHOD, VARIABLES, answers, sampled
 from rocking.survey.pulse_spec import Pulses

@@ -10,8 +10,8 @@ import numpy as np
 from rocking.kernels import batch
 from rocking.kernels.classify import results
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import Criterion, Kind
-from rocking.response import budget, transient_of
+from rocking.model.verdict import Criterion, Kind
+from rocking.response.classify import budget, transient_of
 from rocking.survey.harmonic_spec import Points, points
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.verdicts import verdicts

@@ -8,7 +8,11 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import GRAVITY, Block, GroundMotion, RecordSet, frequency_parameter, refusal
+from rocking.model.block import Block
+from rocking.model.block_formulas import GRAVITY, frequency_parameter
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.record_set import RecordSet
+from rocking.model.validation import refusal
 from rocking.survey.motion_spec import MotionSpec, Runs
 from rocking.survey.spec import Values
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.model import LEVEL, wilson
+from rocking.model.share import LEVEL, wilson
 
 ENDS = ((1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0)
 AT_ONCE = 2_000_000

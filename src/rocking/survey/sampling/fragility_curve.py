@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rocking.model import LognormalFit, limit_name
+from rocking.model.record_results import LognormalFit, limit_name
 from rocking.survey.sampling.clustered_fractions import ENDS, weighted_counts
 from rocking.survey.sampling.lognormal_fit import (
     ALL_ABOVE,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rocking.model import MAX_AMPLITUDE, PERIODS
+from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
 from rocking.survey.harmonic_spec import SYSTEM, Points
 
 TITLE = "Repeatability of the response of a free-standing block on a shaking base"

@@ -7,7 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import RANGES, Bar, instance, reals, refusal, shown, whole
+from rocking.model.progress import Bar
+from rocking.model.system import RANGES
+from rocking.model.text import shown
+from rocking.model.validation import instance, reals, refusal, whole
 from rocking.survey.engine.progress import count_when_done
 from rocking.survey.engine.tile_loop import engine
 from rocking.survey.harmonic_spec import Points

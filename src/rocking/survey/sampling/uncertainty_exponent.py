@@ -6,7 +6,8 @@ from statistics import NormalDist
 
 import numpy as np
 
-from rocking.model import LEVEL, Share, UncertaintyExponent
+from rocking.model.share import LEVEL, Share
+from rocking.model.survey_results import UncertaintyExponent
 
 FINEST, COARSEST = 13, 6
 """Range of k of the distances, which are 2⁻ᵏ times the mean width of the range of initial states."""

@@ -15,7 +15,8 @@ from zarr.abc.store import ByteRequest
 from zarr.buffer import default_buffer_prototype
 from zarr.storage import LocalStore
 
-from rocking.model import renaming, shown_path
+from rocking.model.files import renaming
+from rocking.model.text import shown_path
 from rocking.survey.store.locking import ROOT, StoreError, place_of
 
 SHRINK = Blosc("lz4", clevel=1, shuffle=Blosc.SHUFFLE)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rocking.model import VERSION
+from rocking.model.package import VERSION
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import SurveySpec
 

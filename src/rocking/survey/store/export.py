@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import Kind, check_writable, replacing_hdf5
+from rocking.model.files import check_writable, replacing_hdf5
+from rocking.model.verdict import Kind
 
 if TYPE_CHECKING:
     import xarray as xr

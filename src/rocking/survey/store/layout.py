@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
-from rocking.model import VERSION, shown, shown_path
+from rocking.model.package import VERSION
+from rocking.model.text import shown, shown_path
 from rocking.survey.measurement import Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Level, even_edges, levels, thinned, tile_edges
@@ -88,7 +89,7 @@ def described_layout(layout: Layout) -> dict[str, Any]:
 
 def fingerprint(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
     """Return the properties that must agree to resume a store, and the version and processor that made it."""
-    from rocking.kernels.library import processor_class
+    from rocking.kernels.library.processor import processor_class
 
     return {
         "survey": measure.title,

@@ -10,7 +10,9 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import current_thread, main_thread
 
-from rocking.model import check_folder, not_written, refusal, resolve_path, shown_path
+from rocking.model.files import check_folder, not_written, resolve_path
+from rocking.model.text import shown_path
+from rocking.model.validation import refusal
 
 ROOT = "zarr.json"
 UNFINISHED = re.compile(r"(zarr|\d+)\.[0-9a-f]{32}\.partial")

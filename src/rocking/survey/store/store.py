@@ -16,7 +16,9 @@ import numpy as np
 import xarray as xr
 import zarr
 
-from rocking.model import listed, shown_path, takes_files, warn_of_input
+from rocking.model.files import takes_files
+from rocking.model.text import listed, shown_path
+from rocking.model.validation import warn_of_input
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.store import tile_digests, zarr_metadata

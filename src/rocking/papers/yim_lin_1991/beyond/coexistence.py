@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from scipy.ndimage import distance_transform_edt
 
 import rocking as rk
-from rocking.model import percent
+from rocking.model.text import percent
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925)
 COUNT = 240

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 import rocking as rk
-from rocking.model import percent
+from rocking.model.text import percent
 from rocking.papers.report.claim import Chapter, Finding, small
 from rocking.papers.report.workers import shared
 from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents

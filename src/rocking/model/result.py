@@ -1,11 +1,53 @@
-"""Registry of functions that draw a result in a notebook, filled by `plot`, because `model` may not import it."""
+"""What all results share: read-only arrays, attributes of their datasets, and pictures in notebooks."""
 
 from __future__ import annotations
 
 import html as markup
 from base64 import b64encode
 from collections.abc import Callable
+from functools import partial
 from typing import Any
+
+import attrs
+import numpy as np
+
+from rocking.model.package import VERSION
+from rocking.model.validation import refusal
+
+
+def read_only(array: np.ndarray) -> np.ndarray:
+    """Make an array read-only and return it; TypeError for anything else."""
+    if not isinstance(array, np.ndarray):
+        raise TypeError(refusal("an array of a result", "be a NumPy array", array))
+    array.flags.writeable = False
+    return array
+
+
+class ReadOnlyArrays:
+    """Base class of frozen values whose arrays stay `read_only` in copies and in other processes."""
+
+    __slots__ = ()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # A copied or unpickled NumPy array is writeable. Only the constructor makes it read-only again.
+        fields = attrs.fields(type(self))  # type: ignore[arg-type]  # every subclass is an attrs class
+        return partial(type(self), **{each.alias: getattr(self, each.name) for each in fields}), ()
+
+
+def named(text: str) -> dict[str, str]:
+    """Return the attributes of a normalised variable."""
+    return {"long_name": text, "units": "1"}
+
+
+def described(what: str) -> dict[str, object]:
+    """Return the attributes of a dataset; ``what`` is the result, as a noun phrase."""
+    return {
+        "Conventions": "CF-1.11",
+        "title": f"{what} of a free-standing block on a shaking base",
+        "source": f"rocking {VERSION}",
+        "comment": "All quantities are normalised as in Yim & Lin (1991), Eqs. (1)-(4).",
+    }
+
 
 Draw = Callable[[Any], bytes]
 

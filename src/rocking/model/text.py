@@ -1,9 +1,13 @@
-"""Text of counts, measured numbers and fractions in all printed results."""
+"""Text of counts, measured numbers, values and paths in all printed results and messages."""
 
 from __future__ import annotations
 
 import math
+import os
+import reprlib
 from collections.abc import Sequence
+
+import numpy as np
 
 # Number of significant decimal digits of double precision.
 MAX_DECIMALS = 15
@@ -87,3 +91,34 @@ def listed(names: Sequence[str], most: int = 3) -> str:
     ('a; b', 'a; b; c; …')
     """
     return "; ".join(names[:most]) + "; …" * (len(names) > most)
+
+
+MAX_SHOWN_LENGTH = 60
+MAX_SHOWN_PATH = 120
+_SHORT = reprlib.Repr()
+_SHORT.maxlist = _SHORT.maxtuple = _SHORT.maxset = _SHORT.maxfrozenset = _SHORT.maxdict = MAX_SHOWN_LENGTH
+_SHORT.maxarray = _SHORT.maxdeque = MAX_SHOWN_LENGTH
+_SHORT.maxstring = _SHORT.maxlong = _SHORT.maxother = 4 * MAX_SHOWN_PATH
+"""Texts of values, in bounded time, also of a list that contains itself and of an object whose `repr` fails."""
+
+
+def shown(value: object) -> str:
+    """Return a value as one short line, with NumPy numbers as plain numbers."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    try:
+        text = " ".join(_SHORT.repr(value).split())
+    except ValueError:  # an int with more digits than Python converts to text
+        text = "a number with too many digits"
+    return text if len(text) <= MAX_SHOWN_LENGTH else text[: MAX_SHOWN_LENGTH - 1] + "…"
+
+
+def shown_path(path: str | os.PathLike[str]) -> str:
+    """Return a path in quotation marks, without its middle if it is long."""
+    return both_ends(repr(os.fspath(path)))
+
+
+def both_ends(text: str) -> str:
+    """Return a text on one line, without its middle if it is long."""
+    line, half = " ".join(text.split()), MAX_SHOWN_PATH // 2
+    return line if len(line) <= MAX_SHOWN_PATH else f"{line[:half]}…{line[-half:]}"

@@ -1,4 +1,7 @@
-"""Atomic output: paths are checked before the work, and files are written under a temporary name, then renamed."""
+"""Atomic output: paths are checked before the work, and files are written under a temporary name, then renamed.
+
+Access rights of an existing file or folder stay. An output that cannot be written is one sentence.
+"""
 
 from __future__ import annotations
 
@@ -8,18 +11,71 @@ import os
 import re
 import secrets
 import shutil
+import stat
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any
 
 from attrs import frozen
 
-from rocking.model.access_rights import PRIVATE, PRIVATE_FOLDER, keep_access, takes_files
-from rocking.model.optional import require_format
-from rocking.model.short_texts import shown_path
+from rocking.model.package import require_format
+from rocking.model.text import shown_path
 from rocking.model.validation import refusal
-from rocking.model.write_errors import FULL, WriteError, not_written
+
+PRIVATE, PRIVATE_FOLDER = 0o600, 0o700
+"""Permissions of what replaces an existing file or folder, until it has the permissions of that one."""
+
+
+def keep_access(before: Path, made: Path) -> None:
+    """Give a file or folder the permissions of the one that it replaces and, where allowed, its owner and group.
+
+    If the group cannot be kept, another group gets no more permissions than all other users have. Extended attributes, such as lists
+    of access rights, are then left out.
+    """
+    old = before.stat()
+    if hasattr(os, "chown"):  # Windows has none
+        for owner in (old.st_uid, -1):
+            with suppress(OSError):  # also a group that a user namespace does not have
+                os.chown(made, owner, old.st_gid)
+                break
+    if made.stat().st_gid == old.st_gid:
+        shutil.copystat(before, made)
+        os.utime(made)
+    else:
+        others = old.st_mode & stat.S_IRWXO
+        made.chmod(stat.S_IMODE(old.st_mode) & ~(stat.S_IRWXG & ~(others << 3)))
+
+
+def takes_files(folder: Path) -> bool:
+    """Return whether a file can be created in the folder, by creating one: permissions alone do not show it."""
+    try:
+        with TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
+
+
+FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+"""Error numbers of the operating system for a full disk, an exhausted quota and a file that is too large."""
+DENIED = {errno.EACCES, errno.EPERM, errno.EROFS}
+"""Error numbers for missing permissions and for a system of files that is read only."""
+
+
+class WriteError(OSError):
+    """Output that cannot be written, for example on a full disk. The message names it and the remedy."""
+
+
+def not_written(what: str, error: OSError) -> str:
+    """Return the message of a failed write, with a remedy that fits the error."""
+    remedy = "give another path"
+    if error.errno in FULL:
+        remedy = f"free some space, or {remedy}"
+    if error.errno in DENIED:
+        remedy = f"give permission to write, or {remedy}"
+    why = error.strerror or error
+    return f"{what} cannot be written: {why}; existing data are unchanged ({remedy})"
 
 
 def path_of(name: str, value: Any) -> Path:

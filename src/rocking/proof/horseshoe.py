@@ -1,20 +1,9 @@
-"""Block shift of two words of events: proof of a chaotic invariant set with a lower bound of its entropy.
-
-The word a is the chain of events of an unstable orbit. The word b follows this orbit, then another one that comes near it, and then
-the first one again. So every word begins and ends with the events of a.
-
-The equations of the events couple a word to its neighbours: to the last event before it, and to the first event after it. These
-two phases may lie anywhere in balls. Krawczyk's operator must take the box of each word into itself for all of
-them. Then every sequence of a and b has exactly one motion (Schauder's theorem, and contraction). If the words are distinct at one
-event, with n_a and n_b cycles,
-
-    entropy >= h,  e^(-h n_a) + e^(-h n_b) = 1.
-"""
+"""Proof of a horseshoe: by a transversal crossing of manifolds at Θ = 0, or by the block shift of two words of events."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -22,11 +11,79 @@ import numpy as np
 from flint import arb, arb_mat, ctx
 
 from rocking.kernels.event_kinds import IMPACT
-from rocking.model import Horseshoe, Orbit, System
-from rocking.proof.balls import Balls, Refused, balls_of, hull
+from rocking.model.orbit import Orbit
+from rocking.model.proof import Horseshoe
+from rocking.model.system import System
+from rocking.proof.arc import Balls, Refused, Values, balls_of, hull, stays_positive
 from rocking.proof.chain import Chain, Link, law, link, links_of, place
-from rocking.proof.orbit_chain import chain_of
-from rocking.proof.periodic import check_arc, solved
+from rocking.proof.periodic import chain_of, check_arc, solved
+
+PRECISIONS = (128, 256, 512)
+
+
+def tangle_of(system: System) -> Horseshoe:
+    """Return the proof by the closed form, at the first precision that suffices."""
+    reason = ""
+    for bits in PRECISIONS:
+        with ctx.workprec(bits):
+            try:
+                phase = float(crossing(balls_of(system, {})))
+            except Refused as refusal:
+                reason = str(refusal)
+                continue
+        claim = (
+            "the manifolds of the saddle orbits cross transversally at Θ = 0, "
+            f"at the forcing phase {phase:.3g} rad"
+        )
+        return Horseshoe(system, True, claim, phase)
+    return Horseshoe(system, False, reason)
+
+
+def crossing(p: Balls) -> arb:
+    """Return the phase of a transversal crossing whose arcs stay on their side; raise Refused if there is none."""
+    if not p.restitution > 0:
+        raise Refused("the impact takes all energy, so that the motion cannot be reversed")
+    if not p.response < 1:
+        raise Refused("the saddle orbits reach Θ = 0, or may reach it")
+    gain, loss = 1 + p.restitution, 1 - p.restitution
+    size = p.response * (gain**2 + (p.frequency * loss) ** 2).sqrt()
+    if not size > loss:
+        raise Refused(
+            "the manifolds do not cross, or it is not decided: the amplitude is not above that of their tangency"
+        )
+    shift, opening = (p.frequency * loss / gain).atan(), (-loss / size).acos()
+    for root in (opening - shift, -opening - shift):
+        if arcs_stay(p, root):
+            return root
+    raise Refused("the manifolds cross, but their arcs reach Θ = 0 before, or may reach it")
+
+
+def arcs_stay(p: Balls, phase: arb) -> bool:
+    """Return whether both arcs that meet at a phase stay on their side of Θ = 0."""
+    longest = ((1 + p.response) / (1 - p.response)).log() + 1
+    return all(
+        bool(arc(arb(0)).first > 0) and stays_positive(arc, longest, 1, False)
+        for arc in (distance(p, phase, -1), distance(p, phase, 1))
+    )
+
+
+def distance(p: Balls, phase: arb, sign: int) -> Callable[[arb], Values]:
+    """Return 1 + sign β cos(ψ + sign Ω t) - (1 + sign β cos ψ) e^-t as a function of t, with its derivatives."""
+    rate, swing = sign * p.frequency, sign * p.response
+    start = 1 + swing * phase.cos()
+
+    def at(time: arb) -> Values:
+        sine, cosine = (phase + rate * time).sin_cos()
+        decay = start / time.exp()
+        return Values(
+            1 + swing * cosine - decay,
+            decay - swing * rate * sine,
+            -decay - swing * rate * rate * cosine,
+            decay + swing * rate**3 * sine,
+        )
+
+    return at
+
 
 # Radii of the boxes of both words that are tried, in rad.
 RADII = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-7)
@@ -216,7 +273,7 @@ def whole_chains(p: Balls, orbits: list[Orbit]) -> Iterator[Chain]:
             yield whole_chain(chain, [float(psi) for psi in found.box])
 
 
-def horseshoe_of(system: System, orbits: list[Orbit]) -> Horseshoe:
+def word_shift_of(system: System, orbits: list[Orbit]) -> Horseshoe:
     """Return the proof by two words made of unstable orbits of a system."""
     with ctx.workprec(BITS):
         p = balls_of(system, {})

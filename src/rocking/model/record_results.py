@@ -1,0 +1,528 @@
+"""Results of surveys under ground motions: fragility, incremental dynamic analysis, overturning sets, sensitivity."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from attrs import field, frozen
+
+from rocking.model.block import Block
+from rocking.model.ground_motion import MAX_FACTOR, GroundMotion
+from rocking.model.record_set import Intensity, RecordSet, intensity_of
+from rocking.model.result import NotebookPicture
+from rocking.model.text import counted, percent, percent_with_ends
+from rocking.model.validation import TooShort, real, reals, refusal, refuse_if, whole, within
+from rocking.model.verdict import Outcome
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@frozen
+class LognormalFit:
+    """Lognormal fit of one fragility curve, with 95 % bootstrap intervals.
+
+    Attributes
+    ----------
+    limit : float
+        Limit of |Θ|; infinite for overturning.
+    median, median_low, median_high : float
+        Level that half of the rocking runs exceed, and the ends of its interval; in the unit of the intensity measure.
+    dispersion, dispersion_low, dispersion_high : float
+        Standard deviation of the logarithm of the level, and the ends of its interval. An end is 0 or infinite if the data
+        do not bound it.
+    misfit : float
+        Largest distance between a fraction and the fit; NaN with fewer than three levels.
+    problem : str
+        Reason if the data do not determine the fit; all numbers are then NaN. Default: "".
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> fit = rk.LognormalFit(1.0, 5.0, 4.4, 5.8, 0.3, 0.2, 0.4, 0.03)
+    >>> print(fit)
+    median 5 (4.4–5.8), dispersion 0.3 (0.2–0.4), largest misfit 3.0 %
+    """
+
+    limit: float
+    median: float
+    median_low: float
+    median_high: float
+    dispersion: float
+    dispersion_low: float
+    dispersion_high: float
+    misfit: float
+    problem: str = ""
+
+    def described(self, unit: str = "") -> str:
+        """Return the fit in one line, the median with a unit."""
+        if self.problem:
+            return f"no fit: {self.problem}"
+        median = _with_ends(self.median, self.median_low, self.median_high, unit)
+        dispersion = _with_ends(self.dispersion, self.dispersion_low, self.dispersion_high)
+        misfit = "" if math.isnan(self.misfit) else f", largest misfit {100.0 * self.misfit:.1f} %"
+        return f"median {median}, dispersion {dispersion}{misfit}"
+
+    def probability(self, levels: Any) -> Any:
+        """Return the probability at levels for runs that rock: Φ(ln(level/median)/dispersion).
+
+        Parameters
+        ----------
+        levels : float or array
+            Levels of the intensity measure, not negative.
+
+        Returns
+        -------
+        float or ndarray
+            Probability, in the shape of `levels`.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If a level is not a real number, or is negative.
+        """
+        from scipy.special import ndtr
+
+        given = np.asarray(reals("levels", levels))
+        refuse_if((given < 0.0).any(), "levels", "not be negative", levels)
+        with np.errstate(divide="ignore"):  # the probability at 0 is 0
+            return ndtr(np.log(given / self.median) / self.dispersion)
+
+    def __str__(self) -> str:
+        return self.described()
+
+
+def _with_ends(value: float, low: float, high: float, unit: str = "") -> str:
+    upper = "∞" if math.isinf(high) else f"{high:.3g}"
+    return f"{value:.3g}{' ' * bool(unit)}{unit} ({low:.3g}–{upper})"
+
+
+@frozen(eq=False)
+class Fragility(NotebookPicture):
+    """Probability that a block exceeds limits, over the intensity of the ground motion; returned by `fragility`.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Variables over `limit` (|Θ|; infinite: overturning) and `scale` (the level of the intensity measure):
+
+        - `fraction` with the ends `fraction_low` and `fraction_high` of its 95 % interval;
+        - `effective_records`, the number of independent records behind the interval;
+        - `fit` with the ends `fit_low` and `fit_high` of its band, NaN if there is no fit.
+
+        Variable over `scale`: `rocking`, the fraction of the runs that rock. Variables of the runs, over `record`,
+        `sample` (of an uncertain block) and `scale`: `peak`, `outcome` and `certified`.
+    block : Block
+        Nominal block.
+    fits : tuple of LognormalFit
+        Fit of each limit.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> records = rk.synthetic_ground_motions(8, seed=1)
+    >>> found = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 17), limits=())
+    >>> found.dataset.fraction.dims, found.fit().limit
+    (('limit', 'scale'), inf)
+    """
+
+    dataset: xr.Dataset = field(repr=False)
+    block: Block
+    fits: tuple[LognormalFit, ...] = field(repr=False)
+
+    def fit(self, limit: float = math.inf) -> LognormalFit:
+        """Return the fit of a limit.
+
+        Parameters
+        ----------
+        limit : float
+            One of the limits of |Θ|. Default: infinite, overturning.
+
+        Raises
+        ------
+        TypeError
+            If `limit` is not a real number.
+        ValueError
+            If there is no such limit.
+        TooShort
+            If the data do not determine the fit.
+        """
+        wanted = real("limit", limit)
+        for fit in self.fits:
+            if fit.limit == wanted:
+                if fit.problem:
+                    raise TooShort(f"no fit for {limit_name(fit.limit)}: {fit.problem}", fit)
+                return fit
+        allowed = f"be one of {', '.join(f'{fit.limit:g}' for fit in self.fits)}"
+        raise ValueError(refusal("limit", allowed, limit))
+
+    def __str__(self) -> str:
+        data = self.dataset
+        unit = data.scale.attrs.get("units", "1")
+        last = self.fits[-1].described("" if unit == "1" else unit)
+        return f"{limit_name(self.fits[-1].limit)} over {data.scale.attrs['symbol']}: {last}; {runs_of(data)}"
+
+
+def limit_name(limit: float) -> str:
+    """Return the event of exceeding a limit of |Θ| in words."""
+    return "overturning" if math.isinf(limit) else f"|Θ| > {limit:g}"
+
+
+def runs_of(data: Any) -> str:
+    """Return the numbers of records, samples, levels and runs of a dataset in words."""
+    parts = [counted(data.sizes.get("record", 1), "record")]
+    if "sample" in data.sizes:
+        parts.append(f"{counted(data.sizes['sample'], 'block')} per record")
+    parts.append(counted(data.sizes["scale"], "level"))
+    undecided = int((data.certified == 0).sum())
+    doubt = f", {undecided:,} undecided" if undecided else ""
+    return f"{', '.join(parts)}, {counted(data.peak.size, 'run')}{doubt}"
+
+
+FRACTILES = (0.16, 0.5, 0.84)
+ROUNDING = 1e-9
+
+
+@frozen(eq=False)
+class IncrementalDynamicAnalysis(NotebookPicture):
+    """Peak of a block over the intensity of each ground motion; returned by `incremental_dynamic_analysis`.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Variables over `record` and `scale` (the level of the intensity measure): `peak`, the largest |Θ|, infinite where the
+        block overturns; `outcome`; `certified`, 0 where rounding may have changed the outcome; `margin` and `impacts`.
+    block : Block
+        Block.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> records = rk.synthetic_ground_motions(5, seed=1)
+    >>> found = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), [1.0, 2.0, 4.0])
+    >>> found.fractiles().sizes["fractile"], bool(found.fractiles([0.5]).isel(scale=-1).item() == float("inf"))
+    (3, True)
+    """
+
+    dataset: xr.Dataset = field(repr=False)
+    block: Block
+
+    def fractiles(self, of: Any = FRACTILES) -> xr.DataArray:
+        """Return fractiles of the peak over the records at each level.
+
+        A fractile is the smallest peak that at least this fraction of the records does not exceed. It is infinite where too
+        many records overturn the block.
+
+        Parameters
+        ----------
+        of : float or array (n,)
+            Fractions in (0, 1]. Default: 0.16, 0.5 and 0.84.
+
+        Returns
+        -------
+        xarray.DataArray
+            Peaks |Θ| over `fractile` and `scale`.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If a fraction is not a number in (0, 1].
+        """
+        import xarray as xr
+
+        fractions = checked_fractions("of", of)
+        peaks = np.sort(self.dataset.peak.transpose("record", "scale").values, axis=0)
+        # 0.07 · 100 is 7.000000000000001 in double precision
+        places = np.ceil(fractions * len(peaks) - ROUNDING).astype(int) - 1
+        attributes = {"long_name": "largest absolute angle in units of theta_cr", "units": "1"}
+        return xr.DataArray(
+            peaks[places],
+            {"fractile": ("fractile", fractions), "scale": self.dataset.scale},
+            ("fractile", "scale"),
+            "peak",
+            attributes,
+        )
+
+    @property
+    def scatter(self) -> xr.DataArray:
+        """Record-to-record scatter at each level: ½ ln(peak at 84 %/peak at 16 %).
+
+        It is infinite where more than 16 % of the records overturn the block, and NaN where the fractile at 16 % is 0 or
+        infinite.
+        """
+        import xarray as xr
+
+        low, high = self.fractiles([0.16, 0.84]).values
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found = 0.5 * np.log(high / np.where((low > 0.0) & np.isfinite(low), low, np.nan))
+        attributes = {"long_name": "record-to-record scatter of ln peak", "units": "1"}
+        return xr.DataArray(found, {"scale": self.dataset.scale}, ("scale",), "scatter", attributes)
+
+    def __str__(self) -> str:
+        data = self.dataset
+        fell = np.isinf(data.peak.values).any(axis=data.peak.get_axis_num("scale"))
+        first = np.isinf(self.fractiles([0.5]).values[0])
+        median = f"no level overturns half of them up to {_level(data, -1)}"
+        if first.any():
+            median = f"half of them overturn the block at {_level(data, int(first.argmax()))}"
+        return f"{int(fell.sum())} of {fell.size} records overturn the block, {median}; {runs_of(data)}"
+
+
+def checked_fractions(name: str, values: Any) -> np.ndarray:
+    """Return fractions in (0, 1] as an array (n,), n >= 1; TypeError or ValueError for anything else."""
+    found = np.atleast_1d(reals(name, values))
+    if found.ndim != 1 or not found.size or not ((found > 0.0) & (found <= 1.0)).all():
+        raise ValueError(refusal(name, "hold fractions in (0, 1]", values))
+    return found
+
+
+def _level(data: Any, place: int) -> str:
+    unit = data.scale.attrs.get("units", "1")
+    return f"{data.scale.attrs['symbol']} = {float(data.scale[place]):.4g}{'' if unit == '1' else ' ' + unit}"
+
+
+SWITCH_ROW = np.dtype(
+    [
+        ("record", "i8"),
+        ("level", "f8"),
+        ("overturns_above", "?"),
+        ("impacts_since_rest", "i8"),
+        ("certified", "?"),
+        ("certified_below", "f8"),
+        ("certified_above", "f8"),
+    ]
+)
+"""Row of `OverturningSet.switches`."""
+
+
+def intervals_of(begins_overturned: bool, switches: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Return the intervals (n, 2) of overturning levels in [low, high]; the ends overturn, too.
+
+    A level of the ascending `switches` is the first one on its far side.
+    """
+    starts = switches["level"][switches["overturns_above"]]
+    ends = np.nextafter(switches["level"][~switches["overturns_above"]], 0.0)
+    if begins_overturned:
+        starts = np.concatenate(([low], starts))
+    if starts.size > ends.size:
+        ends = np.concatenate((ends, [high]))
+    return np.stack([starts, ends], axis=1)
+
+
+@frozen(eq=False)
+class OverturningSet(NotebookPicture):
+    """Levels of an intensity measure at which ground motions overturn a block; returned by `overturning_set`.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Variables over `record` and `scale`, the levels of the grid: `outcome`, `certified` and `impacts_since_rest`. Over
+        `record`: `lowest` and `share`. Over `switch`: the columns of `switches`, with the prefix ``switch_``.
+    records : RecordSet
+        Ground motions.
+    block : Block
+        Block.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> push = rk.GroundMotion([1.0, 1.0], step=0.4, name="push")
+    >>> print(rk.overturning_set(push, rk.Block(2.0, 0.5), np.linspace(0.1, 2, 20), intensity="pga-g"))
+    1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.6 % of the range overturns; lowest found 0.373175 g.
+    Intervals and gaps narrower than 0.1 g may be missed
+    """
+
+    dataset: xr.Dataset = field(repr=False)
+    records: RecordSet
+    block: Block
+
+    @property
+    def measure(self) -> Intensity:
+        """Intensity measure of the levels."""
+        return intensity_of(self.dataset.attrs["intensity"], self.records)[0]
+
+    @property
+    def scales(self) -> np.ndarray:
+        """Levels of the grid, shape (n_levels,)."""
+        return np.asarray(self.dataset["scale"].values)
+
+    @property
+    def spacing(self) -> float:
+        """Largest distance between two neighbouring levels. Intervals and gaps that are narrower may be missed."""
+        return float(np.diff(self.scales).max())
+
+    @property
+    def overturned(self) -> np.ndarray:
+        """Flag at each level of the grid: the block overturns; shape (n_records, n_levels)."""
+        return np.asarray(self.dataset["outcome"].values == tuple(Outcome).index(Outcome.OVERTURNED))
+
+    @property
+    def outcome(self) -> np.ndarray:
+        """Outcome at each level of the grid, as text; shape (n_records, n_levels)."""
+        return np.array([str(each) for each in Outcome])[self.dataset["outcome"].values]
+
+    @property
+    def switches(self) -> np.ndarray:
+        """Switches between standing and overturning, sorted by record and level; structured array (n,).
+
+        - `record`: number of the record, from 0;
+        - `level`: first level on the far side; the double below it has the other outcome;
+        - `overturns_above`: whether the block overturns at `level`;
+        - `impacts_since_rest`: mode of overturning, the impacts since the block last rested;
+        - `certified`: whether no rounding error can have changed the outcomes on both sides, so that a switch exists;
+        - `certified_below`, `certified_above`: closest levels found to have certified outcomes, NaN if none. A certified
+          switch lies between them.
+        """
+        found = np.empty(self.dataset.sizes["switch"], SWITCH_ROW)
+        for name in SWITCH_ROW.names or ():
+            found[name] = self.dataset[f"switch_{name}"].values
+        return found
+
+    @property
+    def undecided(self) -> np.ndarray:
+        """Switches that rounding may have made; structured array (n,), empty for a full block, where it is not assessed."""
+        found = self.switches
+        assessed = self.dataset.attrs.get("model") != "full"
+        return found[~found["certified"] & assessed]
+
+    @property
+    def lowest(self) -> np.ndarray:
+        """Lowest overturning level that was found of each record, NaN if none; shape (n_records,).
+
+        Narrow intervals below it may be missed, see `spacing`. More levels find more of them.
+        """
+        return np.asarray(self.dataset["lowest"].values)
+
+    @property
+    def share(self) -> np.ndarray:
+        """Fraction of the range of the levels that overturns, for each record; shape (n_records,)."""
+        return np.asarray(self.dataset["share"].values)
+
+    def intervals(self, record: int = 0) -> np.ndarray:
+        """Return the intervals of levels at which a record overturns the block.
+
+        Parameters
+        ----------
+        record : int
+            Number of the record, from 0. Default: 0.
+
+        Returns
+        -------
+        array, shape (n, 2)
+            Lowest and highest overturning level of each interval, ascending. They end with the range of the levels.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If there is no such record.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> push = rk.GroundMotion([1.0, 1.0], step=0.4)
+        >>> found = rk.overturning_set(push, rk.Block(2.0, 0.5), [2.0, 5.0, 15.0])
+        >>> found.intervals().round(6).tolist()
+        [[3.659594, 15.0]]
+        """
+        record = whole("record", record, 0, len(self.records) - 1)
+        own = self.switches[self.switches["record"] == record]
+        return intervals_of(bool(self.overturned[record, 0]), own, self.scales[0], self.scales[-1])
+
+    def motion(self, record: int, level: float) -> GroundMotion:
+        """Return a ground motion scaled to a level, exactly as the survey scales it.
+
+        Parameters
+        ----------
+        record : int
+            Number of the record, from 0.
+        level : float
+            Level of the intensity measure, in its unit.
+
+        Returns
+        -------
+        GroundMotion
+            Scaled motion, reversed if the polarity is -1.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If there is no such record, or if the level is not positive.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> push = rk.GroundMotion([1.0, 1.0], step=0.4)
+        >>> rk.overturning_set(push, rk.Block(2.0, 0.5), [5.0, 15.0], intensity="pga").motion(0, 7.5).pga
+        7.5
+        """
+        record = whole("record", record, 0, len(self.records) - 1)
+        level = within("level", level, 1e-300, 1e300)
+        measure, values = intensity_of(self.dataset.attrs["intensity"], self.records)
+        alpha, slenderness = self.block.frequency_parameter, self.block.critical_angle
+        factor = measure.factor(level, float(values[record]), alpha, slenderness)
+        refuse_if(factor > MAX_FACTOR, "level", f"scale the record by {MAX_FACTOR:g} at most", level)
+        ground = self.records[record].scaled(factor)
+        return ground.reversed() if self.dataset.attrs["polarity"] < 0 else ground
+
+    def __str__(self) -> str:
+        low, high = self.scales[[0, -1]]
+        count = self.dataset.sizes["switch"]
+        unit = "" if self.measure.unit in ("1", "") else f" {self.measure.unit}"
+        start = (
+            f"{counted(len(self.records), 'record')}, {self.scales.size:,} levels of {self.measure.symbol} from {low:.6g} "
+            f"to {high:.6g}{unit}: {count:,} switch{'es' * (count != 1)}; "
+        )
+        if np.isnan(self.lowest).all():
+            return f"{start}no level overturns"
+        least = np.nanmin(self.lowest)
+        return (
+            f"{start}{percent(self.share.mean())} of the range overturns; lowest found {least:.6g}{unit}.\n"
+            f"Intervals and gaps narrower than {self.spacing:.3g}{unit} may be missed"
+        )
+
+
+@frozen(eq=False)
+class Sensitivity:
+    """Fraction of verdicts that small changes reverse; returned by `sensitivity`.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Variables over `change`:
+
+        - `share`: fraction of the runs whose verdict (overturned or not) differs;
+        - `share_low`, `share_high`: ends of its 95 % interval;
+        - `flipped`, `runs`, `undecided`: numbers of runs.
+
+        Variables over `record` and `scale`: `overturned`, the verdict without a change, and, also over `change`, `differs`.
+    block : Block
+        Block.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = rk.sensitivity(rk.synthetic_ground_motions(5, seed=1), rk.Block(2.0, 0.5), [3.0, 4.0], intensity="pga")
+    >>> found.dataset.share.dims, int(found.dataset.runs[0])
+    (('change',), 10)
+    """
+
+    dataset: xr.Dataset = field(repr=False)
+    block: Block
+
+    def __str__(self) -> str:
+        data = self.dataset
+        parts = [
+            f"{name} {percent_with_ends(share, low, high)}"
+            for name, share, low, high in zip(
+                *(data[name].values.tolist() for name in ("change", "share", "share_low", "share_high")),
+                strict=True,
+            )
+        ]
+        records = counted(data.sizes["record"], "record")
+        return (
+            f"verdicts that change, of {counted(int(data.runs[0]), 'run')} of {records}: {', '.join(parts)}"
+        )

@@ -1,3 +1,0 @@
-"""Version of the package, the only definition."""
-
-VERSION = "0.1.0"
