@@ -163,7 +163,7 @@ def test_scaled_reversed_and_clipped():
         (lambda m: m.scaled(pga=-1.0), "pga must lie in"),
         (
             lambda m: rk.GroundMotion([0.0], step=1.0).scaled(pga=1.0),
-            "pga cannot be given to a motion whose acceleration is 0",
+            "pga must be 0 for a motion whose acceleration is 0 throughout; got ",
         ),
         (lambda m: m.clipped(2.0, 1.0), "end must leave at least one sample after start = 2 s; got 1.0"),
         (lambda m: m.clipped(0.51, 0.52), "end must leave at least one sample"),

@@ -152,8 +152,8 @@ def test_ends_of_the_normalised_ranges_are_allowed_in_si(end):
         (
             lambda: rk.Block(1, 2),
             (
-                "restitution by Housner's formula is -0.2 for a block 1 m high and 2 m wide and must lie in [0, 1]: "
-                "are height and width swapped? If not, give restitution"
+                "restitution must lie in [0, 1]; got -0.2 by Housner's formula for a block 1 m high and 2 m wide "
+                "(are height and width swapped? If not, give restitution)"
             ),
         ),
         (

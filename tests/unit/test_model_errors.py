@@ -16,7 +16,17 @@ from rocking.cli.option_names import YourInput
 from rocking.explorer.field_readers import Refused
 from rocking.model.files import WriteError
 from rocking.model.text import shown, shown_path
-from rocking.model.validation import WAYS, NoOrbit, TooManyEvents, TooShort, one_of, reals, whole
+from rocking.model.validation import (
+    WAYS,
+    NoOrbit,
+    Refusal,
+    TooManyEvents,
+    TooShort,
+    exactly_one,
+    one_of,
+    reals,
+    whole,
+)
 from rocking.survey.store.locking import StoreError
 
 ONE = {
@@ -299,3 +309,28 @@ def test_more_events_than_can_be_recorded_are_refused(monkeypatch):
     ):
         rk.simulate(system, cycles=100)
     assert rk.simulate(system, cycles=100, record="none").impacts > 50
+
+
+def test_a_refusal_has_fields_and_takes_the_names_that_a_user_typed():
+    typed = {"period": "--period", "frequency": "--frequency"}
+    with pytest.raises(Refusal) as raised:
+        exactly_one(period=1.0, frequency=2.0)
+    assert (
+        str(raised.value.of(typed))
+        == "give exactly one of --period, --frequency; got --period=1.0 and --frequency=2.0"
+    )
+    error = Refusal("period", "be at most the {frequency}", "{period}", "reduce {period}")
+    assert (
+        str(error.of(typed)) == "--period must be at most the --frequency; got '{period}' (reduce --period)"
+    )
+    assert (error.argument, error.value) == ("period", "{period}")
+
+
+def test_a_pickled_refusal_keeps_its_text_and_not_its_value():
+    error = Refusal("executor", "be an Executor", lambda: None).of({"executor": "--executor"})
+    error.add_note("a note")
+    copied = pickle.loads(pickle.dumps(error))
+    assert type(copied) is Refusal
+    assert str(copied) == str(error)
+    assert copied.__notes__ == ["a note"]
+    assert isinstance(copied.value, str)

@@ -395,6 +395,6 @@ def test_short_motion_is_refused_with_what_it_needs(settled):
 def test_memory_has_a_limit_that_is_told():
     long = rk.simulate(FREE, rk.State(angle=0.5), cycles=5_000)
     with pytest.raises(
-        ValueError, match="^motion must have at most 4096 cycles .+ 4096 samples in each; it has 5000$"
+        ValueError, match="^motion must have at most 4096 cycles .+ 4096 samples in each; got 5000$"
     ):
         rk.spectral_density(long, samples=4_096)

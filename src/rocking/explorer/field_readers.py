@@ -8,7 +8,7 @@ from typing import Any
 from urllib.parse import parse_qsl
 
 from rocking.explorer.view_state import Span
-from rocking.model.validation import refusal, refuse_if
+from rocking.model.validation import Refusal, refuse_if
 
 VERSION = 1
 """Version of links; increased when an earlier link would show a different view."""
@@ -67,7 +67,7 @@ def count(low: int, high: int) -> Callable[[str, str], int]:
     def read(name: str, text: str) -> int:
         value = _given(name, text)
         if not (value.isascii() and value.isdigit() and len(value) < 10 and low <= int(value) <= high):
-            raise ValueError(refusal(name, f"be a whole number in [{low}, {high}]", text))
+            raise Refusal(name, f"be a whole number in [{low}, {high}]", text)
         return int(value)
 
     return read
@@ -101,7 +101,7 @@ def read_fields(
     read, refused = {}, {}
     for name, text in typed.items():
         if name not in how:
-            refused["page"] = refusal("field", f"be one of {', '.join(how)}", name)
+            refused["page"] = str(Refusal("field", f"be one of {', '.join(how)}", name))
             continue
         try:
             read[name] = how[name](WORDS.get(name, name), text)
@@ -129,5 +129,5 @@ def parameters(text: str) -> dict[str, str]:
     version = typed.pop("version", str(VERSION))
     if version != str(VERSION):
         allowed = f"be {VERSION}, the version of the links of this explorer"
-        raise Refused({"page": refusal("version", allowed, version)})
+        raise Refused({"page": str(Refusal("version", allowed, version))})
     return typed

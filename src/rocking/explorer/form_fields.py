@@ -24,7 +24,7 @@ from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest
 from rocking.model.block import Block
 from rocking.model.forcing import MAX_AMPLITUDE, MAX_PHASE, PERIODS
 from rocking.model.system import BRACE_ANGLES, CRITICAL_ANGLES, MAX_START, check_below_flat, check_start
-from rocking.model.validation import refusal
+from rocking.model.validation import Refusal
 from rocking.plot.parts import theory_curves
 
 SAME = 1e-3
@@ -41,8 +41,8 @@ def _span(low: float, high: float) -> Callable[[str, str], Span]:
         span = Span(end(name, first), end(name, last))
         # tolerance for rounding, so that the narrowest range itself is valid
         if not span.width >= closest(span) * (1.0 - 1e-3):
-            raise ValueError(
-                refusal(name, "be LOW:HIGH, with LOW < HIGH and a range that double precision resolves", text)
+            raise Refusal(
+                name, "be LOW:HIGH, with LOW < HIGH and a range that double precision resolves", text
             )
         return span
 
@@ -123,7 +123,7 @@ def _with_angle_of_block(shown: ViewState) -> ViewState:
     exact = shown.block.critical_angle
     if abs(shown.critical_angle / exact - 1.0) > SAME:
         allowed = f"be {exact:.4g}, that of the block in SI units, or empty"
-        raise Refused({"critical_angle": refusal("critical angle", allowed, shown.critical_angle)})
+        raise Refused({"critical_angle": str(Refusal("critical angle", allowed, shown.critical_angle))})
     return attrs.evolve(shown, critical_angle=exact)
 
 
@@ -132,9 +132,8 @@ def _checked(shown: ViewState) -> ViewState:
     if shown.critical_angle is not None and shown.brace_angle is not None:
         try:
             check_below_flat(shown.brace_angle, shown.critical_angle)
-        except ValueError as error:
-            sentence = str(error).replace("critical_angle", WORDS["critical_angle"])
-            raise Refused(_at_its_field(sentence)) from None
+        except Refusal as error:
+            raise Refused(_at_its_field(error)) from None
     try:
         check_start(shown.system, shown.start)
     except ValueError as error:
@@ -170,8 +169,8 @@ def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
     try:
         block = Block(read["height"], read["width"])
         system = block.system(**{size: read["acceleration"]}, frequency_hz=read["frequency_hz"])
-    except ValueError as error:
-        raise Refused(_at_its_field(str(error))) from None
+    except Refusal as error:
+        raise Refused(_at_its_field(error)) from None
     forcing = system.periodic
     wanted = attrs.evolve(
         shown,
@@ -187,17 +186,17 @@ def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
     return _checked(wanted)
 
 
-def _at_its_field(sentence: str) -> dict[str, str]:
-    """Assign an error message of the package to its field, with the label of the field."""
-    name, _, rest = sentence.partition(" ")
-    if name == "restitution":  # Housner's value, which follows from height and width
-        return at_width(sentence)
-    return {name.removesuffix("_g"): f"{WORDS.get(name, name)} {rest}"}
+def _at_its_field(error: Refusal) -> dict[str, str]:
+    """Return the message of a refused argument by its field, with the label of the field."""
+    if error.argument == "restitution":  # Housner's value, which follows from height and width
+        return at_width(error)
+    return {error.argument.removesuffix("_g"): str(error.of(WORDS))}
 
 
-def at_width(sentence: str) -> dict[str, str]:
-    """Assign an error message on Housner's restitution to the field of the width."""
-    return {"width": f"{sentence.partition(':')[0]}: make the block narrower or taller"}
+def at_width(error: Refusal) -> dict[str, str]:
+    """Return the message of a refused restitution of Housner by the field of the width."""
+    remedy = "make the block narrower or taller"
+    return {"width": str(Refusal(error.argument, error.allowed, error.value, remedy))}
 
 
 def _reaching(span: Span, value: float, most: float) -> Span:

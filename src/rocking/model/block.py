@@ -15,11 +15,13 @@ from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.system import Braces, System, critical_angle_for
 from rocking.model.validation import (
     MAX_REAL,
+    Refusal,
+    Text,
+    WrongType,
     exactly_one,
     explained,
     instance,
     reals,
-    refusal,
     warn_of_value,
     within,
 )
@@ -122,10 +124,9 @@ class Block:
         for doubt in size_doubts(self.height, self.width):
             warn_of_value(doubt)
         if self.has_housner_restitution and self.restitution < 0:
-            raise ValueError(
-                f"restitution by Housner's formula is {self.restitution:.3g} for a block {self.height:g} m high and "
-                f"{self.width:g} m wide and must lie in [0, 1]: are height and width swapped? If not, give restitution"
-            )
+            housner = f"{self.restitution:.3g} by Housner's formula for a block {self.height:g} m high and {self.width:g} m wide"
+            remedy = "are {height} and {width} swapped? If not, give {restitution}"
+            raise Refusal("restitution", "lie in [0, 1]", Text(housner), remedy)
 
     @property
     def size(self) -> str:
@@ -228,7 +229,7 @@ class Block:
             return System(self._harmonic(**harmonic, phase=phase), self.restitution, braces, angle)
         given = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
         if given:
-            raise TypeError(f"give base or {given[0]}, not both")
+            raise WrongType(given[0], "be omitted with {base}")
         if isinstance(base, GroundMotion) and base.vertical:
             warn_of_value(vertical_sentence([base.component]))
         scales = self.acceleration(1.0), self.frequency_parameter
@@ -346,7 +347,7 @@ class Block:
         sine = reals(given, top_displacement) / self.height
         if np.any(np.abs(sine) > 1):
             allowed = f"lie in [-{self.height:g}, {self.height:g}] m, the height"
-            raise ValueError(refusal(given, allowed, top_displacement))
+            raise Refusal(given, allowed, top_displacement)
         return np.arcsin(sine) / self.critical_angle
 
     def __repr__(self) -> str:

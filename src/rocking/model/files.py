@@ -22,7 +22,7 @@ from attrs import frozen
 
 from rocking.model.package import require_format
 from rocking.model.text import shown_path
-from rocking.model.validation import refusal
+from rocking.model.validation import Refusal, Text, WrongType
 
 PRIVATE, PRIVATE_FOLDER = 0o600, 0o700
 """Permissions of what replaces an existing file or folder, until it has the permissions of that one."""
@@ -81,7 +81,7 @@ def not_written(what: str, error: OSError) -> str:
 def path_of(name: str, value: Any) -> Path:
     """Return a path; TypeError, whose message begins with `name`, for anything but a text or an object of `pathlib`."""
     if not isinstance(value, str | os.PathLike):
-        raise TypeError(refusal(name, "be a path", value))
+        raise WrongType(name, "be a path", value)
     return Path(value)
 
 
@@ -131,7 +131,7 @@ def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[s
     """
     path = path_of(name, path)
     if suffixes and path.suffix.lower() not in suffixes:
-        raise ValueError(f"{name} must end in {', '.join(suffixes)}; got {shown_path(path)}")
+        raise Refusal(name, f"end in {', '.join(suffixes)}", Text(shown_path(path)))
     require_format(path)
     place = resolve_path(name, path)
     if not place.parent.is_dir():

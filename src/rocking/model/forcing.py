@@ -10,7 +10,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model.result import ReadOnlyArrays, read_only
-from rocking.model.validation import exactly_one, finite, one_of, reals, refusal, within
+from rocking.model.validation import Refusal, exactly_one, finite, one_of, reals, within
 
 MAX_AMPLITUDE = 1e3
 FREQUENCIES = (1e-3, 1e3)
@@ -220,12 +220,12 @@ def samples(name: str, values: Any, largest: float) -> np.ndarray:
     if isinstance(values, np.ndarray) and values.dtype == float and not values.flags.writeable:
         found = values
     if found.ndim != 1 or not 1 <= found.size <= MAX_SAMPLES:
-        raise ValueError(refusal(name, f"be 1 to {MAX_SAMPLES:,} numbers in a row", values))
+        raise Refusal(name, f"be 1 to {MAX_SAMPLES:,} numbers in a row", values)
     wrong = ~(np.abs(found) <= largest)
     if wrong.any():
         first = int(np.argmax(wrong))
         allowed = f"be finite and of size up to {largest:g}, unlike sample {first}"
-        raise ValueError(refusal(name, allowed, float(found[first])))
+        raise Refusal(name, allowed, float(found[first]))
     return read_only(np.ascontiguousarray(found))
 
 

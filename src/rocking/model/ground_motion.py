@@ -20,12 +20,12 @@ from rocking.model.forcing import UNITS, BaseMotion, PiecewiseLinear, velocity_a
 from rocking.model.result import ReadOnlyArrays, read_only
 from rocking.model.text import listed
 from rocking.model.validation import (
+    Refusal,
     exactly_one,
     finite,
     instance,
     one_of,
     reals,
-    refusal,
     warn_of_value,
     within,
 )
@@ -408,7 +408,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         given = np.asarray(reals("periods", periods), dtype=float)
         shortest, longest = PERIODS
         if not ((given >= shortest) & (given <= longest)).all():
-            raise ValueError(refusal("periods", f"lie in [{shortest:g}, {longest:g}] s", periods))
+            raise Refusal("periods", f"lie in [{shortest:g}, {longest:g}] s", periods)
         damping = within("damping", damping, 0, MAX_DAMPING)
         a = self.acceleration
         found = [pseudo_acceleration(a, self.step, period, damping) for period in given.ravel().tolist()]
@@ -444,7 +444,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
             return evolve(self, factor=self.factor * finite("factor", factor, MAX_FACTOR))  # type: ignore[arg-type]
         wanted = within("pga", pga, 0, MAX_ACCELERATION, "m/s²")  # type: ignore[arg-type]
         if self.pga == 0.0:
-            raise ValueError("pga cannot be given to a motion whose acceleration is 0 throughout")
+            raise Refusal("pga", "be 0 for a motion whose acceleration is 0 throughout", wanted)
         return evolve(self, factor=self.factor * (wanted / self.pga))
 
     def normalised(self, acceleration: float, frequency: float) -> PiecewiseLinear:
@@ -510,7 +510,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         chosen = slice(math.ceil(first / self.step - 1e-9), math.floor(last / self.step + 1e-9) + 1)
         kept = self._samples[chosen]
         if not kept.size:
-            raise ValueError(refusal("end", f"leave at least one sample after start = {first:g} s", end))
+            raise Refusal("end", f"leave at least one sample after {{start}} = {first:g} s", end)
         return evolve(self, acceleration=read_only(kept.copy()), corrected=True)
 
     def __repr__(self) -> str:

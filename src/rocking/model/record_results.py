@@ -13,7 +13,7 @@ from rocking.model.ground_motion import MAX_FACTOR, GroundMotion
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
 from rocking.model.result import NotebookPicture
 from rocking.model.text import counted, percent, percent_with_ends
-from rocking.model.validation import TooShort, real, reals, refusal, refuse_if, whole, within
+from rocking.model.validation import Refusal, TooShort, real, reals, refuse_if, whole, within
 from rocking.model.verdict import Outcome
 
 if TYPE_CHECKING:
@@ -157,7 +157,7 @@ class Fragility(NotebookPicture):
                     raise TooShort(f"no fit for {limit_name(fit.limit)}: {fit.problem}", fit)
                 return fit
         allowed = f"be one of {', '.join(f'{fit.limit:g}' for fit in self.fits)}"
-        raise ValueError(refusal("limit", allowed, limit))
+        raise Refusal("limit", allowed, limit)
 
     def __str__(self) -> str:
         data = self.dataset
@@ -275,7 +275,7 @@ def checked_fractions(name: str, values: Any) -> np.ndarray:
     """Return fractions in (0, 1] as an array (n,), n >= 1; TypeError or ValueError for anything else."""
     found = np.atleast_1d(reals(name, values))
     if found.ndim != 1 or not found.size or not ((found > 0.0) & (found <= 1.0)).all():
-        raise ValueError(refusal(name, "hold fractions in (0, 1]", values))
+        raise Refusal(name, "hold fractions in (0, 1]", values)
     return found
 
 

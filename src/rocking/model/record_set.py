@@ -14,7 +14,7 @@ from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.result import read_only
 from rocking.model.text import counted, shown
-from rocking.model.validation import members, one_of, reals, refusal, warn_of_input, warn_of_value
+from rocking.model.validation import Refusal, WrongType, members, one_of, reals, warn_of_input, warn_of_value
 
 ALLOWED = "hold ground motions, one at least"
 REMEDY = "read them with rk.read_ground_motion, or a folder with rk.read_record_set"
@@ -22,19 +22,19 @@ REMEDY = "read them with rk.read_ground_motion, or a folder with rk.read_record_
 
 def _motions(values: Any) -> tuple[GroundMotion, ...]:
     if isinstance(values, str | os.PathLike):
-        raise TypeError(refusal("records", ALLOWED, values, REMEDY))
+        raise WrongType("records", ALLOWED, values, REMEDY)
     found = (values,) if isinstance(values, GroundMotion) else members("records", values, ALLOWED)
     if not found:
-        raise ValueError(refusal("records", ALLOWED, values, REMEDY))
+        raise Refusal("records", ALLOWED, values, REMEDY)
     for each in found:
         if not isinstance(each, GroundMotion):
-            raise TypeError(refusal("records", ALLOWED, each, REMEDY))
+            raise WrongType("records", ALLOWED, each, REMEDY)
     return found
 
 
 def _columns(values: Mapping[str, Any]) -> dict[str, np.ndarray]:
     if not isinstance(values, Mapping):
-        raise TypeError(refusal("columns", "be a mapping of names to one number per record", values))
+        raise WrongType("columns", "be a mapping of names to one number per record", values)
     return {
         str(name): read_only(np.atleast_1d(reals(f"columns[{shown(name)}]", column)))
         for name, column in values.items()
@@ -84,12 +84,12 @@ class RecordSet(Sequence[GroundMotion]):
         for name in self.names:
             if name in seen:
                 way_out = "attrs.evolve(motion, name=…) gives another name"
-                raise ValueError(refusal("records", "have distinct names", f"{name} twice", way_out))
+                raise Refusal("records", "have distinct names", f"{name} twice", way_out)
             seen.add(name)
         for name, column in self.columns.items():
             if column.shape != (len(self.motions),):
                 allowed = f"hold {counted(len(self.motions), 'number')}, one per record"
-                raise ValueError(refusal(f"columns[{shown(name)}]", allowed, column.tolist()))
+                raise Refusal(f"columns[{shown(name)}]", allowed, column.tolist())
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -239,7 +239,7 @@ def intensity_of(name: str, records: RecordSet) -> tuple[Intensity, np.ndarray]:
     one_of("intensity", name, choices)
     if name in records.columns and name in INTENSITIES:
         allowed = "name either a measure or a column of the records, not both"
-        raise ValueError(refusal("intensity", allowed, name, "rename the column"))
+        raise Refusal("intensity", allowed, name, "rename the column")
     if name in records.columns:
         measure, values = Intensity(name, name, "", f"column {name!r} of the records"), records.columns[name]
     else:
@@ -249,5 +249,5 @@ def intensity_of(name: str, records: RecordSet) -> tuple[Intensity, np.ndarray]:
     if lacking.any():
         first = int(np.argmax(lacking))
         allowed = f"be positive for each record, unlike for {records.names[first]!r}"
-        raise ValueError(refusal(f"intensity {name!r}", allowed, float(values[first])))
+        raise Refusal(f"intensity {name!r}", allowed, float(values[first]))
     return measure, values

@@ -12,13 +12,13 @@ import attrs
 import numpy as np
 
 from rocking.model.package import VERSION
-from rocking.model.validation import refusal
+from rocking.model.validation import WrongType
 
 
 def read_only(array: np.ndarray) -> np.ndarray:
     """Make an array read-only and return it; TypeError for anything else."""
     if not isinstance(array, np.ndarray):
-        raise TypeError(refusal("an array of a result", "be a NumPy array", array))
+        raise WrongType("an array of a result", "be a NumPy array", array)
     array.flags.writeable = False
     return array
 

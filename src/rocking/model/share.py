@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.validation import refusal, whole
+from rocking.model.validation import Refusal, whole
 
 LEVEL = 0.95
 """Confidence level of the intervals."""
@@ -102,9 +102,7 @@ class Share:
 
     def __attrs_post_init__(self) -> None:
         if self.count + self.unknown > self.of:
-            raise ValueError(
-                refusal("count + unknown", f"be at most of = {self.of}", self.count + self.unknown)
-            )
+            raise Refusal("count + unknown", f"be at most of = {self.of}", self.count + self.unknown)
 
     @property
     def value(self) -> float:

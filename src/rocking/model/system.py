@@ -10,12 +10,14 @@ from attrs import field, frozen
 
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
 from rocking.model.validation import (
+    Refusal,
+    Text,
+    WrongType,
     finite,
     instance,
     members,
     one_of,
     pair,
-    refusal,
     refuse_if,
     warn_of_value,
     within,
@@ -65,7 +67,7 @@ def _velocity(value: float) -> float:
 
 def _forcing(value: Forcing) -> Forcing:
     if not isinstance(value, Forcing):
-        raise TypeError(refusal("forcing", "be a base motion", value, FORCINGS))
+        raise WrongType("forcing", "be a base motion", value, FORCINGS)
     return value
 
 
@@ -175,8 +177,11 @@ class System:
     def __attrs_post_init__(self) -> None:
         """Refuse a table for the slender block, and braces that a full block reaches only when it lies flat."""
         if self.critical_angle is None:
-            allowed = "be omitted for a slender block (give its critical_angle)"
-            refuse_if(bool(self.restitution_table), "restitution_table", allowed, self.restitution_table)
+            allowed = "be omitted for a slender block"
+            remedy = "give its {critical_angle}"
+            refuse_if(
+                bool(self.restitution_table), "restitution_table", allowed, self.restitution_table, remedy
+            )
         elif self.braces is not None:
             check_below_flat(self.braces.angle, self.critical_angle)
 
@@ -193,7 +198,7 @@ class System:
         """
         if self.critical_angle is not None:
             rule = "be None for this analysis, which has a closed form for the slender block alone"
-            raise TypeError(refusal("critical_angle", rule, self.critical_angle))
+            raise WrongType("critical_angle", rule, self.critical_angle)
         return self.periodic
 
     @property
@@ -209,9 +214,8 @@ class System:
         """
         if not isinstance(self.forcing, Harmonic):
             name = type(self.forcing).__name__
-            raise TypeError(
-                f"system must have a periodic base motion, rk.Harmonic; got {name} (rk.simulate tells how its motion ends)"
-            )
+            remedy = "rk.simulate tells how its motion ends"
+            raise WrongType("system", "have a periodic base motion, rk.Harmonic", Text(name), remedy)
         return self.forcing
 
 
@@ -310,7 +314,7 @@ def critical_angle_for(model: str, angle: float, width: float) -> float | None:
     if one_of("model", model, MODELS) == "slender":
         return None
     low, high = CRITICAL_ANGLES
-    allowed = f"give a critical angle atan(width/height) in [{low}, {high}] with the full equation"
+    allowed = f"give a critical angle atan({{width}}/{{height}}) in [{low}, {high}] with the full equation"
     refuse_if(not low <= angle <= high, "width", allowed, width)
     return angle
 
@@ -318,14 +322,14 @@ def critical_angle_for(model: str, angle: float, width: float) -> float | None:
 def check_below_flat(brace_angle: float, critical_angle: float) -> None:
     """Raise ValueError for braces that a full block reaches only when it lies flat."""
     limit = 0.5 * math.pi / critical_angle
-    allowed = f"be below {limit:.6g}, where a block with critical_angle {critical_angle:.6g} lies flat"
+    allowed = f"be below {limit:.6g}, where a block with {{critical_angle}} {critical_angle:.6g} lies flat"
     refuse_if(brace_angle >= limit, "brace_angle", allowed, brace_angle)
 
 
 def check_between(angle: float, reach: float) -> None:
     """Raise ValueError if an angle lies beyond braces at ±`reach`."""
     if abs(angle) > reach:
-        raise ValueError(refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", angle))
+        raise Refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", angle)
 
 
 def check_start(system: System, start: State | None) -> State:

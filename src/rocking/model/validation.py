@@ -8,6 +8,7 @@ from __future__ import annotations
 import difflib
 import inspect
 import math
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Mapping, MutableMapping, Sequence
@@ -115,15 +116,113 @@ class NoOrbit(ValueError):
         return type(self), (str(self), self.phase, self.state, self.residual), self.__dict__
 
 
+class Text(str):
+    """Text that messages print as it is, without quotation marks."""
+
+    __slots__ = ()
+    __repr__ = str.__str__
+
+
+NO_VALUE = Text()
+NAME = re.compile(r"{([a-z_]+)}")
+"""Name of an argument in a text."""
+
+
+class Refusal(ValueError):
+    """Invalid argument: "argument must be what is allowed; got value (remedy)".
+
+    The texts may name further arguments, each in braces, such as "{period}". They are printed without the braces.
+
+    Parameters
+    ----------
+    argument : str
+        Name of the argument, or a phrase that names arguments in braces.
+    allowed : str
+        What the value must be, beginning with a verb: "be a real number", "lie in [0, 1]".
+    value : object, optional
+        Invalid value. Default: none is printed. In a pickled copy it is the text that is printed.
+    remedy : str
+        What to do, printed in parentheses. Default: "".
+
+    Attributes
+    ----------
+    argument, allowed, value, remedy
+        As above.
+
+    Examples
+    --------
+    >>> error = Refusal("restitution", "lie in [0, 1]", 1.2)
+    >>> print(error)
+    restitution must lie in [0, 1]; got 1.2
+    >>> print(error.of({"restitution": "--restitution"}))
+    --restitution must lie in [0, 1]; got 1.2
+    """
+
+    def __init__(self, argument: str, allowed: str, value: object = NO_VALUE, remedy: str = "") -> None:
+        super().__init__(argument, allowed, value, remedy)
+        self.argument = argument
+        self.allowed = allowed
+        self.value = value
+        self.remedy = remedy
+        self._names: dict[str, str] = {}
+
+    def of(self, names: Mapping[str, str]) -> Refusal:
+        """Return the same refusal with the names of arguments that a user typed, such as ``{"period": "--period"}``."""
+        other = type(self)(self.argument, self.allowed, self.value, self.remedy)
+        other._names = {**self._names, **names}
+        return other
+
+    def __str__(self) -> str:
+        argument = self._names.get(self.argument, self.argument)
+        value, remedy = shown(self.value), self._named(self.remedy)
+        if isinstance(self.value, Text):
+            value = self._named(self.value)
+        parts = (
+            self._named(self._sentence(argument)),
+            f"; got {value}" * bool(value),
+            f" ({remedy})" * bool(remedy),
+        )
+        return "".join(parts)
+
+    def _sentence(self, argument: str) -> str:
+        return f"{argument} must {self.allowed}"
+
+    def _named(self, text: str) -> str:
+        return NAME.sub(lambda name: self._names.get(name[1], name[1]), text)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # The value may be anything, such as a function that another process cannot have.
+        state = self.__dict__ | {"value": Text(shown(self.value))}
+        return type(self), (self.argument, self.allowed, state["value"], self.remedy), state
+
+
+class WrongType(Refusal, TypeError):
+    """Argument of a type that is not allowed."""
+
+
+class NotOne(WrongType):
+    """None or several of arguments of which exactly one is needed; `argument` names them all, each in braces."""
+
+    def _sentence(self, argument: str) -> str:
+        return f"give exactly one of {argument}"
+
+
+class Incomplete(WrongType):
+    """Call that lacks arguments: "what is called needs what is missing"; `argument` is a noun phrase."""
+
+    def _sentence(self, argument: str) -> str:
+        return f"{argument} needs {self.allowed}"
+
+
 def refusal(name: str, allowed: str, value: object, remedy: str = "") -> str:
     """Return the message for an invalid value, in the form used by the whole package."""
-    return f"{name} must {allowed}; got {shown(value)}" + (f" ({remedy})" if remedy else "")
+    return str(Refusal(name, allowed, value, remedy))
 
 
 def refuse_if(wrong: object, name: str, allowed: str, value: object, remedy: str = "") -> None:
     """Refuse the value of an argument with a sentence, where something is wrong with it."""
     if wrong:
-        raise ValueError(refusal(name, allowed, value, remedy))
+        raise Refusal(name, allowed, value, remedy)
 
 
 def within(name: str, value: float, low: float, high: float, unit: str = "", if_below: str = "") -> float:
@@ -155,12 +254,12 @@ def within(name: str, value: float, low: float, high: float, unit: str = "", if_
     1.0
     >>> within("restitution", 1.2, 0, 1)
     Traceback (most recent call last):
-    ValueError: restitution must lie in [0, 1]; got 1.2
+    rocking.model.validation.Refusal: restitution must lie in [0, 1]; got 1.2
     """
     interval = f"[{low:.6g}, {high:.6g}]" + (f" {unit}" if unit else "")
     number = real(name, value, f"be a real number in {interval}")
     if not low <= number <= high:
-        raise ValueError(refusal(name, f"lie in {interval}", value, if_below if number < low else ""))
+        raise Refusal(name, f"lie in {interval}", value, if_below if number < low else "")
     return number
 
 
@@ -169,7 +268,7 @@ def finite(name: str, value: float, largest: float) -> float:
     allowed = f"be a finite real number of size up to {largest:g}"
     number = real(name, value, allowed)
     if not abs(number) <= largest:
-        raise ValueError(refusal(name, allowed, value))
+        raise Refusal(name, allowed, value)
     return number
 
 
@@ -184,7 +283,7 @@ def real(name: str, value: float, allowed: str = "be a real number") -> float:
     """Return a real number as a float, infinite on overflow; TypeError for other types."""
     found = number(value)
     if found is None:
-        raise TypeError(refusal(name, allowed, value))
+        raise WrongType(name, allowed, value)
     try:
         return float(found)
     except OverflowError:
@@ -204,9 +303,9 @@ def whole(name: str, value: int, low: int, high: int) -> int:
     allowed = f"be a whole number in [{low}, {high}]"
     found = number(value)
     if found is None:
-        raise TypeError(refusal(name, allowed, value))
+        raise WrongType(name, allowed, value)
     if not low <= found <= high or found != int(found):
-        raise ValueError(refusal(name, allowed, value))
+        raise Refusal(name, allowed, value)
     return int(found)
 
 
@@ -237,22 +336,20 @@ def reals(name: str, values: Any, largest: float | None = None) -> Any:
     if np.any(wrong):
         first = found[wrong].flat[0] if isinstance(found, np.ndarray) else values
         finite_only = "" if largest is None else "finite "
-        raise ValueError(
-            refusal(name, f"be a {finite_only}real number of size up to {largest or MAX_REAL:g}", first)
-        )
+        raise Refusal(name, f"be a {finite_only}real number of size up to {largest or MAX_REAL:g}", first)
     return found if isinstance(found, np.ndarray) else float(found)
 
 
 def _array(name: str, values: Any) -> np.ndarray:
     """Return anything array-like as an array of floats; errors as in `reals`."""
     if _is_masked(values):
-        raise ValueError(refusal(name, "hold no masked values", values, "leave them out, or fill them"))
+        raise Refusal(name, "hold no masked values", values, "leave them out, or fill them")
     try:
         array = np.asarray(values)
     except (TypeError, ValueError, RecursionError, MemoryError):
         array = np.asarray(None)
     if array.dtype.kind not in "fiu":
-        raise TypeError(refusal(name, "be a real number or an array of real numbers", values))
+        raise WrongType(name, "be a real number or an array of real numbers", values)
     return array.astype(float)
 
 
@@ -272,18 +369,18 @@ def _is_masked(values: Any) -> bool:
 def members(name: str, values: Any, allowed: str) -> tuple[Any, ...]:
     """Return the members of a sequence; TypeError, with `allowed` in its message, for text, mappings and scalars."""
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
-        raise TypeError(refusal(name, allowed, values))
+        raise WrongType(name, allowed, values)
     try:
         return tuple(values)
     except TypeError:  # an array without dimensions
-        raise TypeError(refusal(name, allowed, values)) from None
+        raise WrongType(name, allowed, values) from None
 
 
 def pair(name: str, values: Any, allowed: str) -> tuple[Any, Any]:
     """Return both members of a pair; TypeError or ValueError, with `allowed` in its message, for anything else."""
     found = members(name, values, allowed)
     if len(found) != 2:
-        raise ValueError(refusal(name, allowed, values))
+        raise Refusal(name, allowed, values)
     return found[0], found[1]
 
 
@@ -292,7 +389,7 @@ def instance(name: str, value: Value, kind: type) -> Value:
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIO" else "a"
         way = WAYS.get(f"{type(value).__name__} for {kind.__name__}") or WAYS.get(kind.__name__, "")
-        raise TypeError(refusal(name, f"be {article} {kind.__name__}", value, way))
+        raise WrongType(name, f"be {article} {kind.__name__}", value, way)
     return value
 
 
@@ -300,16 +397,16 @@ def check_progress(progress: object) -> None:
     """Refuse anything but None or a function of a number of completed values with a TypeError."""
     if progress is not None and not callable(progress):
         allowed = "be a function of the number of values completed"
-        raise TypeError(refusal("progress", allowed, progress, "for example print"))
+        raise WrongType("progress", allowed, progress, "for example print")
 
 
 def one_of(name: str, value: str, allowed: Sequence[str]) -> str:
     """Return `value` if it is one of the `allowed` words; TypeError or ValueError for anything else."""
     choices = f"be one of {', '.join(map(repr, allowed))}"
     if not isinstance(value, str):
-        raise TypeError(refusal(name, choices, value))
+        raise WrongType(name, choices, value)
     if value not in allowed:
-        raise ValueError(refusal(name, choices, value))
+        raise Refusal(name, choices, value)
     return value
 
 
@@ -322,12 +419,13 @@ def exactly_one(**values: object) -> str:
     'period'
     >>> exactly_one(period=None, frequency=None)
     Traceback (most recent call last):
-    TypeError: give exactly one of period, frequency; got none
+    rocking.model.validation.NotOne: give exactly one of period, frequency; got none
     """
     given = {name: value for name, value in values.items() if value is not None}
     if len(given) != 1:
-        got = " and ".join(f"{name}={shown(value)}" for name, value in given.items()) or "none"
-        raise TypeError(f"give exactly one of {', '.join(values)}; got {got}")
+        got = " and ".join(f"{{{name}}}={shown(value)}" for name, value in given.items()) or "none"
+        names = ", ".join(f"{{{name}}}" for name in values)
+        raise NotOne(names, "be one", Text(got))
     return next(iter(given))
 
 

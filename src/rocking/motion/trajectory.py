@@ -14,7 +14,7 @@ from rocking.kernels.march import resample
 from rocking.model.forcing import MAX_PHASE, Harmonic
 from rocking.model.result import ReadOnlyArrays, read_only
 from rocking.model.system import State, System
-from rocking.model.validation import reals, refusal, refuse_if, within
+from rocking.model.validation import Refusal, reals, refuse_if, within
 from rocking.model.verdict import Outcome, Overturning
 from rocking.motion.march_loop import parameters, section_of
 
@@ -227,7 +227,7 @@ class Trajectory(ReadOnlyArrays):
         if times.size and not (times.min() >= 0.0 and times.max() <= last):
             outside = times[~((times >= 0.0) & (times <= last))].flat[0]
             allowed = f"lie in the run, [0, {last:.6g}]" if ends else "be finite and at least 0"
-            raise ValueError(refusal("times", allowed, float(outside)))
+            raise Refusal("times", allowed, float(outside))
         flat = times.ravel()
         period = self._cycle_length
         begins = absolute(rows, self._cycle_length, self.duration)
@@ -240,5 +240,5 @@ class Trajectory(ReadOnlyArrays):
         if not np.isfinite(out).all():
             first = float(flat[np.flatnonzero(~np.isfinite(out).all(axis=1))[0]])
             allowed = f"lie in the run, [0, {self.duration:.6g}], or little later, while the angle is within the range of floats"
-            raise ValueError(refusal("times", allowed, first))
+            raise Refusal("times", allowed, first)
         return out.reshape(*times.shape, 3) + 0.0

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
 from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
-from rocking.model.validation import instance, one_of, pair, refusal, whole
+from rocking.model.validation import Refusal, instance, one_of, pair, whole
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
 from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of
@@ -189,22 +189,20 @@ def bifurcation_curve(
     for name, value in (("first", first), ("second", second)):
         one_of(name, value, tuple(NAMES))
     if first == second or {first, second} == {"period", "frequency"}:
-        raise ValueError(refusal("second", f"be another parameter than {first}", second))
+        raise Refusal("second", f"be another parameter than {first}", second)
     ranges = pair("bounds", bounds, f"be two pairs (lowest, highest), of {first} and of {second}")
     limits = [check_range(name, bounds) for name, bounds in zip((first, second), ranges, strict=True)]
     step = check_step(step)
     most = whole("max_points", max_points, 2, 1_000_000)
     here = [value_of(special.orbit.system, name) for name in (first, second)]
     if not all(low <= value <= high for value, (low, high) in zip(here, limits, strict=True)):
-        raise ValueError(
-            refusal("bounds", f"contain the {first} and the {second} of the special point", bounds)
-        )
+        raise Refusal("bounds", f"contain the {first} and the {second} of the special point", bounds)
     chain, condition = _condition(special)
     problem = problem_of(chain, (first, second), limits, step, [high - low for low, high in limits])
     y = np.append(chain.phases, here)
     (back, start), (on, end) = (_half(problem, condition, y, sense, most) for sense in (-1.0, 1.0))
     if not len(back):
-        raise ValueError(f"special must be the start of a curve; no further point was found from {special}")
+        raise Refusal("special", f"be the start of a curve; no further point was found from {special}")
     if start == End.CLOSED:
         back, on, end = back[::-1], back[:1], start
     impacts, _ = chain.counts()
@@ -253,7 +251,7 @@ def _condition(special: SpecialPoint) -> tuple[Chain, Condition]:
                 "special must be a grazing whose contact is located; it is not "
                 "(use that of a branch with another step, or in another parameter)"
             )
-        raise ValueError("special must have an event other than the grazing one to be followed; it has none")
+        raise Refusal("special", "have an event other than the grazing one to be followed; it has none")
     if touches_again(special._touch, special.name):
         raise ValueError(
             "special must be a grazing at one instant, not at several "

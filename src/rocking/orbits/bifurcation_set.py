@@ -13,7 +13,7 @@ from rocking.model.progress import Bar
 from rocking.model.result import NotebookPicture
 from rocking.model.system import System
 from rocking.model.text import counted
-from rocking.model.validation import instance, one_of, refusal, whole
+from rocking.model.validation import WrongType, instance, one_of, whole
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
@@ -151,7 +151,7 @@ def bifurcation_set(
     number, step = whole("grid", grid, 1, 200), check_step(step)
     if len(ranges) != 2 or set(ranges) == {"period", "frequency"}:
         allowed = "hold the ranges of two different parameters, such as period=(0.5, 3), amplitude=(1, 16)"
-        raise TypeError(refusal("ranges", allowed, ", ".join(ranges) or "none"))
+        raise WrongType("ranges", allowed, ", ".join(ranges) or "none")
     for name in ranges:
         one_of("ranges", name, tuple(NAMES))
     first, second = ranges

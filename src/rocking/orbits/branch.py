@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import Orbit, Stability
 from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
-from rocking.model.validation import refusal, whole, within
+from rocking.model.validation import WrongType, whole, within
 from rocking.orbits.branch_rows import BranchRows
 from rocking.orbits.datasets import of_branch
 from rocking.orbits.event_chain import Chain
@@ -91,10 +91,10 @@ def chain_at(special: SpecialPoint) -> Chain:
     """Return the chain of events at a special point; TypeError for a full block or an orbit that rests, which have none."""
     if special.orbit.superstable:
         allowed = "be that of an orbit without rest and without sustained contact with a brace"
-        raise TypeError(refusal("special", allowed, f"a {special.kind} of an orbit that rests"))
+        raise WrongType("special", allowed, f"a {special.kind} of an orbit that rests")
     if special._chain is None:
         allowed = "be that of a slender block, whose arcs are closed forms"
-        raise TypeError(refusal("special", allowed, f"critical_angle {special.orbit.system.critical_angle}"))
+        raise WrongType("special", allowed, f"critical_angle {special.orbit.system.critical_angle}")
     return special._chain
 
 
@@ -188,6 +188,8 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         count = len(self)
         try:
             index = whole("index", index, -count, count - 1)
+        except WrongType:
+            raise
         except ValueError as error:
             raise IndexError(str(error)) from None
         return self._rows.orbit(index)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
 from rocking.model.text import counted, plus_minus
-from rocking.model.validation import instance, refusal, whole
+from rocking.model.validation import Refusal, instance, whole
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import switch_branch
 from rocking.orbits.datasets import of_cascade
@@ -152,7 +152,7 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
     """
     instance("special", special, SpecialPoint)
     if special.kind != "period-doubling":
-        raise ValueError(refusal("special", "be a period doubling", special.kind))
+        raise Refusal("special", "be a period doubling", special.kind)
     low, high = check_range(special.name, bounds)
     wanted = whole("doublings", doublings, 2, 10)
     found, around, end = [special], (low, high), "number of period doublings wanted"

@@ -9,7 +9,7 @@ import numpy as np
 from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model.orbit import Orbit
-from rocking.model.validation import instance, one_of, refusal, refuse_if, whole
+from rocking.model.validation import Refusal, instance, one_of, refuse_if, whole
 from rocking.motion.simulate import simulate
 from rocking.orbits import grazed_branch, resting_branch
 from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint, chain_at
@@ -106,7 +106,7 @@ def continue_orbit(
     instance("orbit", orbit, Orbit)
     if orbit._grazes:
         allowed = "not be that of a grazing, where its branch ends"
-        raise ValueError(refusal("orbit", allowed, str(orbit), "use a neighbouring one: branch.orbit(index)"))
+        raise Refusal("orbit", allowed, str(orbit), "use a neighbouring one: branch.orbit(index)")
     one_of("parameter", parameter, (*NAMES, "critical_angle"))
     here = value_of(orbit.system, parameter)
     low, high = check_range(parameter, bounds)
@@ -128,7 +128,7 @@ def continue_orbit(
     if direction is None:
         allowed = "close after its period and lie on one branch alone"
         remedy = "use a neighbouring one, branch.orbit(index), or find it again with find_orbit"
-        raise ValueError(refusal("orbit", allowed, str(orbit), remedy))
+        raise Refusal("orbit", allowed, str(orbit), remedy)
     halves = [_follow(problem, row, sense * direction, most) for sense in (-1.0, 1.0)]
     for half in halves:
         # an orbit at an end of the range may lie beyond it by rounding
@@ -180,7 +180,7 @@ def switch_branch(
     instance("special", special, SpecialPoint)
     if special.kind not in ("symmetry-breaking", "period-doubling", "grazing"):
         allowed = "be of kind symmetry-breaking, period-doubling or grazing to switch branches"
-        raise ValueError(refusal("special", allowed, special.kind))
+        raise Refusal("special", allowed, special.kind)
     chain_at(special)  # refuses a full block, and an orbit that rests
     low, high = check_range(special.name, bounds)
     refuse_if(

@@ -16,7 +16,7 @@ from rocking.kernels.orbits import continuation as following
 from rocking.kernels.orbits import event_chain as kernel
 from rocking.model.orbit import Orbit, OrbitEvent
 from rocking.model.system import NO_BRACES, State, System, quantities
-from rocking.model.validation import refusal
+from rocking.model.validation import Refusal, Text
 from rocking.motion.simulate import simulate
 from rocking.orbits.parameter import with_value
 
@@ -92,16 +92,15 @@ def chain_of(orbit: Orbit) -> Chain:
     """
     forcing = orbit.system.harmonic
     if orbit.superstable:
-        raise ValueError(
-            refusal(
-                "orbit", "neither rest nor lean", orbit.period, "sweep the parameter with classify"
-            ).replace("got", "got one that does, of period")
-        )
+        got = Text(f"one that does, of period {orbit.period}")
+        raise Refusal("orbit", "neither rest nor lean", got, "sweep the parameter with classify")
     events = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period).events
     events = events[np.isin(events["kind"], ("impact", "brace"))]
     if not len(events):
-        raise ValueError(
-            "orbit must have an impact or a brace impact; it has none (it is the saddle orbit ±1 + β cos ψ)"
+        raise Refusal(
+            "orbit",
+            "have an impact or a brace impact; it has none",
+            remedy="it is the saddle orbit ±1 + β cos ψ",
         )
     psi = orbit.phase + forcing.frequency * events["time"]
     kinds = np.where(events["kind"] == "impact", IMPACT, BRACE).astype(np.int64)
@@ -116,9 +115,9 @@ def check_speeds(orbit: Orbit) -> None:
     braces, allowed = orbit.system.braces, "keep some speed at each impact to be followed"
     remedy = "find it at a coefficient of restitution of 0.001 or more"
     if orbit.system.restitution == 0.0 and orbit.impacts:
-        raise ValueError(refusal("orbit", allowed, "one at restitution 0", remedy))
+        raise Refusal("orbit", allowed, Text("one at {restitution} 0"), remedy)
     if braces is not None and braces.restitution == 0.0 and orbit.brace_hits:
-        raise ValueError(refusal("orbit", allowed, "one at brace_restitution 0", remedy))
+        raise Refusal("orbit", allowed, Text("one at {brace_restitution} 0"), remedy)
 
 
 def solved(chain: Chain, parameter: str, value: float, phases: np.ndarray) -> Solved:

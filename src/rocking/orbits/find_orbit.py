@@ -12,7 +12,7 @@ from rocking.kernels.classify import workspace as memory
 from rocking.kernels.orbits import newton_search as kernel
 from rocking.model.orbit import Orbit, OrbitEvent
 from rocking.model.system import State, System, check_periodic
-from rocking.model.validation import NoOrbit, instance, refusal, whole
+from rocking.model.validation import NoOrbit, Refusal, instance, whole
 from rocking.model.verdict import Outcome
 from rocking.motion.march_loop import monodromy, start_march
 from rocking.motion.simulate import simulate
@@ -89,10 +89,8 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     period = whole("period", period, 1, MAX_PERIOD)
     motion = simulate(system, guess, cycles=period + 1)
     if motion.outcome is Outcome.OVERTURNED:
-        raise ValueError(
-            refusal(
-                "guess", f"not overturn within {period + 1} cycles", guess, "use a guess nearer to the orbit"
-            )
+        raise Refusal(
+            "guess", f"not overturn within {period + 1} cycles", guess, "use a guess nearer to the orbit"
         )
     frequency, own = system.periodic.frequency, system.periodic.phase
     phase = quiet_phase(own + frequency * motion.events["time"]) if len(motion.events) else own

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.model.forcing import MAX_AMPLITUDE, Harmonic
 from rocking.model.orbit import Mode, Orbit
 from rocking.model.system import System
-from rocking.model.validation import exactly_one, reals, refusal, refuse_if, whole, within
+from rocking.model.validation import Refusal, WrongType, exactly_one, reals, refuse_if, whole, within
 from rocking.model.verdict import Kind
 from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
@@ -117,7 +117,7 @@ def frequency_response(
 def _values(name: str, values: Any) -> NDArray[np.float64]:
     ordered = np.unique(reals(name, values))
     if not 2 <= len(ordered) <= MAX_VALUES or not np.isfinite(ordered).all():
-        raise ValueError(refusal(name, f"be 2 to {MAX_VALUES:,} different finite numbers", values))
+        raise Refusal(name, f"be 2 to {MAX_VALUES:,} different finite numbers", values)
     check_range(name, (float(ordered[0]), float(ordered[-1])), name)
     return ordered
 
@@ -128,13 +128,13 @@ def _lossy(restitution: float) -> float:
         remedy = (
             "an undamped motion never reaches a steady response; theory.symmetric_modes returns the modes"
         )
-        raise ValueError(refusal("restitution", "lie in [0.001, 1)", restitution, remedy))
+        raise Refusal("restitution", "lie in [0.001, 1)", restitution, remedy)
     return restitution
 
 
 def _sequence(modes: Any) -> tuple[int, ...]:
     if isinstance(modes, str) or not np.iterable(modes) or not tuple(modes):
-        raise TypeError(refusal("modes", "be a sequence of odd numbers, such as (1, 3)", modes))
+        raise WrongType("modes", "be a sequence of odd numbers, such as (1, 3)", modes)
     return tuple(modes)
 
 

@@ -18,7 +18,7 @@ from rocking.model.orbit import Orbit
 from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
 from rocking.model.system import State
 from rocking.model.text import plus_minus
-from rocking.model.validation import instance, reals, refusal, within
+from rocking.model.validation import Refusal, instance, reals, within
 from rocking.model.verdict import Kind, Verdict
 from rocking.motion.simulate import simulate
 from rocking.orbits.branch import SpecialPoint, chain_at
@@ -217,13 +217,11 @@ def grazing_transition(
     """
     instance("special", special, SpecialPoint)
     if special.kind != "grazing":
-        raise ValueError(refusal("special", "be a grazing", special.kind))
+        raise Refusal("special", "be a grazing", special.kind)
     chain_at(special)  # refuses a full block, and an orbit that rests
     ordered = np.unique(reals("distances", distances))[::-1]
     if len(ordered) < FITTED or not (ordered[-1] >= 1e-9 and ordered[0] <= 0.5):
-        raise ValueError(
-            refusal("distances", f"be at least {FITTED} different numbers in [1e-9, 0.5]", distances)
-        )
+        raise Refusal("distances", f"be at least {FITTED} different numbers in [1e-9, 0.5]", distances)
     budget(max_cycles, MAX_PERIOD)
     beyond = -1.0 if special._origin is None else -special._origin.side
     values = special.parameter * (1.0 + beyond * ordered)

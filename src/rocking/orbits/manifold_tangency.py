@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model.system import System
-from rocking.model.validation import instance, refusal, refuse_if
+from rocking.model.validation import Refusal, instance, refuse_if
 from rocking.orbits.parameter import with_value
 from rocking.orbits.saddle_orbits import check, parameters
 
@@ -145,13 +145,11 @@ def tangency_amplitude(system: System) -> float:
     """
     check(with_value(instance("system", system, System), "amplitude", 0.0))
     if system.restitution == 1.0:
-        raise ValueError(
-            refusal(
-                "restitution",
-                "be below 1",
-                1.0,
-                "without dissipation the manifolds intersect for every A > 0",
-            )
+        raise Refusal(
+            "restitution",
+            "be below 1",
+            1.0,
+            "without dissipation the manifolds intersect for every A > 0",
         )
     from scipy.optimize import brentq
 

@@ -16,7 +16,7 @@ from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import Orbit
 from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
 from rocking.model.system import State
-from rocking.model.validation import instance, refusal, within
+from rocking.model.validation import Refusal, instance, within
 from rocking.motion.march_loop import monodromy
 from rocking.orbits.datasets import of_manifolds
 from rocking.orbits.event_chain import clocked
@@ -159,10 +159,10 @@ def orbit_manifolds(
     check_reversible(orbit.system)
     moduli = sorted(abs(value) for value in orbit.multipliers)
     if orbit.superstable or not moduli[0] < 1.0 < moduli[1] or not orbit.impacts:
-        raise ValueError(refusal("orbit", "be a saddle orbit with impacts", f"{orbit.stability} {orbit}"))
+        raise Refusal("orbit", "be a saddle orbit with impacts", f"{orbit.stability} {orbit}")
     if moduli[1] < SLOWEST:
         allowed = f"have a multiplier of at least {SLOWEST} in modulus, so that its manifolds grow in reasonable time"
-        raise ValueError(refusal("orbit", allowed, moduli[1]))
+        raise Refusal("orbit", allowed, moduli[1])
     length, spacing = within("length", length, *LENGTHS), within("spacing", spacing, *SPACINGS)
     phase = orbit.phase if phase is None else within("phase", phase, -MAX_PHASE, MAX_PHASE)
     points = np.array(

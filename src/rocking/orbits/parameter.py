@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.forcing import Harmonic
 from rocking.model.system import RANGES, Braces, System, quantities
-from rocking.model.validation import pair, reals, refusal, refuse_if, within
+from rocking.model.validation import Refusal, pair, reals, refuse_if, within
 
 PARAMETERS = (
     "amplitude",
@@ -62,7 +62,7 @@ def ordered_values(values: ArrayLike, most: int) -> NDArray[np.float64]:
     """Return the different values of a parameter, ascending, after checking that they are finite and at most `most`."""
     ordered = np.unique(reals("values", values))
     if not 0 < len(ordered) <= most or not np.isfinite(ordered).all():
-        raise ValueError(refusal("values", f"be 1 to {most:,} finite numbers", values))
+        raise Refusal("values", f"be 1 to {most:,} finite numbers", values)
     return ordered
 
 

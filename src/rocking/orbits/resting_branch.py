@@ -20,7 +20,7 @@ from attrs import frozen
 
 from rocking.model.orbit import Orbit
 from rocking.model.system import State, System
-from rocking.model.validation import refusal
+from rocking.model.validation import Refusal
 from rocking.model.verdict import Kind
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
@@ -157,7 +157,7 @@ def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: f
     way, first = _first(orbit, name)
     if first is None:
         allowed, remedy = "close after its period", "find it again with find_orbit"
-        raise ValueError(refusal("orbit", allowed, str(orbit), remedy))
+        raise Refusal("orbit", allowed, str(orbit), remedy)
     back, on = (_follow(way, first, bounds, sense * step, most) for sense in (-1.0, 1.0))
     points, specials = joined(back, on)
     return Branch(

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from rocking.model.orbit import Orbit, stability_of
-from rocking.model.validation import refusal
+from rocking.model.validation import Refusal
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.branch_halves import Half, joined
 from rocking.orbits.branch_result import ENDS
@@ -43,7 +43,7 @@ def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: f
     if first is None:
         allowed = "have impacts, and close after its period"
         remedy = "use a neighbouring one, or find it again with find_orbit"
-        raise ValueError(refusal("orbit", allowed, str(orbit), remedy))
+        raise Refusal("orbit", allowed, str(orbit), remedy)
     along = first.tangent if first.tangent[2] >= 0.0 else -first.tangent
     back, on = (follow(way, first, sense * along, step, most) for sense in (-1.0, 1.0))
     if back.end == ENDS[End.CLOSED]:

@@ -10,7 +10,7 @@ import numpy as np
 from rocking.kernels.march import march
 from rocking.model.orbit import OrbitEvent
 from rocking.model.system import State, System
-from rocking.model.validation import TooManyEvents, instance, refusal, refuse_if
+from rocking.model.validation import Refusal, TooManyEvents, instance, refuse_if
 from rocking.motion.march_loop import start_march
 from rocking.theory import saddle_orbit
 
@@ -25,16 +25,14 @@ def check(system: System) -> None:
     if response(system) >= 1.0:
         most = 1.0 + system.harmonic.frequency**2
         allowed = f"be below 1 + Ω² = {most:.6g}, where the saddle orbits touch Θ = 0"
-        raise ValueError(refusal("amplitude", allowed, system.harmonic.amplitude))
+        raise Refusal("amplitude", allowed, system.harmonic.amplitude)
 
 
 def check_reversible(system: System) -> None:
     """Raise ValueError for a system with braces, or with impacts that cannot be reversed in time."""
     _ = system.harmonic  # refuses other base motions, and the full block
     if system.braces is not None:
-        raise ValueError(
-            refusal("system", "have no braces: impacts on them are not reversed in time", system.braces)
-        )
+        raise Refusal("system", "have no braces: impacts on them are not reversed in time", system.braces)
     refuse_if(
         system.restitution == 0.0, "restitution", "be positive, so that impacts can be reversed in time", 0.0
     )

@@ -10,7 +10,7 @@ from matplotlib.ticker import FuncFormatter
 from rocking.model.block import Block
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import Stability
-from rocking.model.validation import one_of, refusal, within
+from rocking.model.validation import Refusal, one_of, within
 from rocking.orbits.branch import Branch
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
@@ -82,7 +82,7 @@ def branch(
         allowed = (
             "be another one for orbits that rest or stay in contact with a brace: their multipliers are 0"
         )
-        raise ValueError(refusal("quantity", allowed, quantity))
+        raise Refusal("quantity", allowed, quantity)
     phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
     shown = quantities(block)
     across, x_label = parameter(branches[0].name, block)
@@ -115,9 +115,7 @@ def _branches(result: Branch | Sequence[Branch]) -> list[Branch]:
     branches = branch_lines.several(result, Branch)
     for one in branches:
         if one.name != branches[0].name:
-            raise ValueError(
-                refusal("result", f"hold branches over one parameter, {branches[0].name}", one.name)
-            )
+            raise Refusal("result", f"hold branches over one parameter, {branches[0].name}", one.name)
     return branches
 
 

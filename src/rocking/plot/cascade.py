@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model.block import Block
-from rocking.model.validation import instance, refusal
+from rocking.model.validation import Refusal, instance
 from rocking.orbits.cascade import Cascade
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
@@ -58,9 +58,7 @@ def cascade(result: Cascade, ax: Axes | None = None, block: Block | None = None)
     """
     instance("result", result, Cascade)
     if len(result.special) < 2:
-        raise ValueError(
-            refusal("result", "hold two period doublings or more to be drawn", len(result.special))
-        )
+        raise Refusal("result", "hold two period doublings or more to be drawn", len(result.special))
     special = result.special[0]
     turn, shown_as = parameter(special.name, block)
     distances = np.abs(np.diff(turn(result.values)))

@@ -3,7 +3,7 @@
 from matplotlib.axes import Axes
 
 from rocking.model.text import counted
-from rocking.model.validation import instance, refusal
+from rocking.model.validation import Refusal, instance
 from rocking.plot.parts import style
 from rocking.response.correlation_dimension import CorrelationDimension
 
@@ -50,9 +50,7 @@ def correlation_dimension(result: CorrelationDimension, ax: Axes | None = None) 
     """
     instance("result", result, CorrelationDimension)
     if result.isolated:
-        raise ValueError(
-            refusal("result", "hold pairs that scale", counted(result.isolated, "isolated point"))
-        )
+        raise Refusal("result", "hold pairs that scale", counted(result.isolated, "isolated point"))
     ax = style.own(ax, height=2.8)
     ax.set(xscale="log", yscale="log")
     ax.axvspan(*result.scaling_region, color=style.TABLE, alpha=0.4, linewidth=0, gid="scaling-region")

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model.validation import instance, refusal
+from rocking.model.validation import Refusal, instance
 from rocking.orbits.grazing_transition import GrazingTransition
 from rocking.plot.parts import style
 
@@ -54,7 +54,7 @@ def grazing_transition(result: GrazingTransition, ax: Axes | None = None) -> Axe
     instance("result", result, GrazingTransition)
     shown = np.isfinite(result.farthest)
     if not shown.any():
-        raise ValueError(refusal("result", "hold a motion that does not overturn to be drawn", "none"))
+        raise Refusal("result", "hold a motion that does not overturn to be drawn", "none")
     x, far, near = (values[shown] for values in (result.distances, result.farthest, result.nearest))
     ax = style.own(ax, height=2.9)
     if result.kind in ("local", "undecided"):

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator
 
 from rocking.model.block import Block
-from rocking.model.validation import refusal, refuse_if, whole
+from rocking.model.validation import WrongType, refuse_if, whole
 from rocking.motion.motion import Motion
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
@@ -98,6 +98,6 @@ def _impacts(result, transient) -> np.ndarray:
         last = int(result["cycle"].max(initial=0))
         impacts = result[result["cycle"] >= whole("transient", transient, 0, last)]
     else:
-        raise TypeError(refusal("result", "be a Motion or what impact_section gives", result))
+        raise WrongType("result", "be a Motion or what impact_section gives", result)
     refuse_if(not len(impacts), "result", "hold an impact after the transient", len(impacts))
     return impacts

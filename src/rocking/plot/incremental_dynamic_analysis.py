@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from rocking.model.record_results import FRACTILES, IncrementalDynamicAnalysis, checked_fractions
 from rocking.model.text import counted
-from rocking.model.validation import instance, refusal
+from rocking.model.validation import Refusal, instance
 from rocking.plot.parts import style
 from rocking.plot.parts.intensity import level_label
 
@@ -63,7 +63,7 @@ def incremental_dynamic_analysis(
     instance("found", found, IncrementalDynamicAnalysis)
     fractions = checked_fractions("fractiles", fractiles)
     if len(fractions) > len(SHADES):
-        raise ValueError(refusal("fractiles", f"hold 1 to {len(SHADES)} fractions", fractiles))
+        raise Refusal("fractiles", f"hold 1 to {len(SHADES)} fractions", fractiles)
     thick = found.fractiles(fractions)
     ax = style.own(ax, height=3.3)
     style.block_title(ax, found.block, full=found.dataset.attrs.get("model") == "full")

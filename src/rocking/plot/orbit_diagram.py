@@ -8,7 +8,7 @@ from matplotlib.patheffects import Normal, Stroke
 
 from rocking.model.block import Block
 from rocking.model.orbit import Stability
-from rocking.model.validation import instance, members, one_of, refusal
+from rocking.model.validation import Refusal, WrongType, instance, members, one_of
 from rocking.model.verdict import Kind
 from rocking.orbits.branch import Branch
 from rocking.orbits.orbit_diagram_result import OrbitDiagram
@@ -154,11 +154,9 @@ def _distinct(values: np.ndarray, heights: np.ndarray) -> tuple[np.ndarray, np.n
 
 def _checked(result: OrbitDiagram, branch: Branch) -> Branch:
     if not isinstance(branch, Branch):
-        raise TypeError(refusal("branches", "be a sequence of branches from continue_orbit", branch))
+        raise WrongType("branches", "be a sequence of branches from continue_orbit", branch)
     if branch.name != result.parameter:
-        raise ValueError(
-            refusal("branches", f"run over {result.parameter}, as the diagram does", branch.name)
-        )
+        raise Refusal("branches", f"run over {result.parameter}, as the diagram does", branch.name)
     return branch
 
 

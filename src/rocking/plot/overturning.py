@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from rocking.model.block import Block
 from rocking.model.survey_results import OverturningCurve
-from rocking.model.validation import instance, refusal
+from rocking.model.validation import Refusal, instance
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 
@@ -54,9 +54,7 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
     data = found.dataset
     if data.lowest.ndim > 1:
         over = " and ".join(map(str, data.lowest.dims))
-        raise ValueError(
-            refusal("found", "vary over one quantity to be drawn", over, "select one value first")
-        )
+        raise Refusal("found", "vary over one quantity to be drawn", over, "select one value first")
     level, y_label = parameter("amplitude", block)
     ax = style.own(ax, height=3.3)
     style.block_title(ax, block)

@@ -10,7 +10,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from rocking.model.block import Block
-from rocking.model.validation import refusal
+from rocking.model.validation import Refusal, WrongType
 from rocking.model.verdict import Outcome
 from rocking.plot import palette
 from rocking.plot.parts import style
@@ -76,11 +76,9 @@ def overturning_spectrum(found: xr.Dataset, ax: Axes | None = None, block: Block
     """
     attributes = getattr(found, "attrs", {})
     if "pulse" not in attributes or any(name not in found for name in VARIABLES):
-        raise TypeError(refusal("found", "be a dataset of rocking.overturning_spectrum", found))
+        raise WrongType("found", "be a dataset of rocking.overturning_spectrum", found)
     if found["outcome"].ndim != 2:
-        raise ValueError(
-            refusal("found", "have one coefficient of restitution", dict(found.sizes), "select one value")
-        )
+        raise Refusal("found", "have one coefficient of restitution", dict(found.sizes), "select one value")
     turn_across, _ = parameter("frequency", block)
     turn_up, y_label = parameter("amplitude", block)
     ax = style.own(ax, height=3.4)

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 
 from rocking.model.record_set import INTENSITIES
 from rocking.model.text import counted
-from rocking.model.validation import one_of, refusal
+from rocking.model.validation import Refusal, WrongType, one_of
 from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.map_levels import edges
@@ -170,15 +170,15 @@ def _check(found: Any) -> None:
     import xarray as xr
 
     if not isinstance(found, xr.Dataset) or not {"peak", "outcome", "certified"} <= set(found.data_vars):
-        raise TypeError(refusal("found", "be a dataset as rocking_spectrum gives it", found))
+        raise WrongType("found", "be a dataset as rocking_spectrum gives it", found)
     peak = found.peak
     others = [str(name) for name in peak.dims if name not in LINES]
     if others:
         remedy = f"select one value first, such as found.isel({others[0]}=0)"
         allowed = "vary over records, size and slenderness alone"
-        raise ValueError(refusal("found", allowed, ", ".join(others), remedy))
+        raise Refusal("found", allowed, ", ".join(others), remedy)
     if not {"size", "slenderness"} & set(peak.dims):
-        raise ValueError(refusal("found", "vary over size or slenderness", tuple(map(str, peak.dims))))
+        raise Refusal("found", "vary over size or slenderness", tuple(map(str, peak.dims)))
 
 
 def _axis(found: xr.Dataset, name: str, across: str) -> tuple[np.ndarray, str]:
@@ -259,7 +259,7 @@ def _map(found: xr.Dataset, ax: Axes | None, across: str, unit: str) -> Axes:
     if "record" in found.peak.dims:
         remedy = "select one first, such as found.isel(record=0)"
         count = counted(found.sizes["record"], "record")
-        raise ValueError(refusal("found", "hold one record to be a map", count, remedy))
+        raise Refusal("found", "hold one record to be a map", count, remedy)
     places, x_label = _axis(found, "size", across)
     angles = np.degrees(found["slenderness"].values)
     peak = found.peak.transpose("slenderness", "size").values

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.block import Block
 from rocking.model.forcing import MAX_PHASE
-from rocking.model.validation import reals, refusal, refuse_if, whole, within
+from rocking.model.validation import WrongType, reals, refuse_if, whole, within
 from rocking.motion.motion import Motion
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
@@ -96,7 +96,7 @@ def _points(result) -> NDArray:
     try:
         points = np.asarray(reals("result", result))
     except TypeError:
-        raise TypeError(refusal("result", allowed, result)) from None
+        raise WrongType("result", allowed, result) from None
     refuse_if(points.ndim != 2 or points.shape[1] != 2 or not len(points), "result", allowed, result)
     return points
 

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.block import Block
-from rocking.model.validation import reals, refusal, refuse_if
+from rocking.model.validation import Refusal, WrongType, reals, refuse_if
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 
@@ -71,7 +71,7 @@ def thresholds(
     (turn_across, x_label), (turn_up, y_label) = (parameter(name, block) for name in ("period", "amplitude"))
     across = np.asarray(reals("periods", periods))
     if not isinstance(curves, Mapping):
-        raise TypeError(refusal("curves", "be a dict of amplitudes by label", curves))
+        raise WrongType("curves", "be a dict of amplitudes by label", curves)
     refuse_if(not 1 <= len(curves) <= len(LINES), "curves", f"hold 1 to {len(LINES)} of them", len(curves))
     checked = {name: _curve(name, curve, across) for name, curve in curves.items()}
     ax = style.own(ax, height=2.9)
@@ -95,7 +95,5 @@ def _curve(name: str, curve: Any, across: NDArray) -> tuple[NDArray, NDArray]:
     amplitudes, holds = curve if isinstance(curve, tuple) else (curve, np.ones(across.shape, bool))
     values, holds = np.asarray(reals("curves", amplitudes)), np.asarray(holds, bool)
     if not across.ndim == values.ndim == holds.ndim == 1 or not len(across) == len(values) == len(holds):
-        raise ValueError(
-            refusal("curves", f"have one amplitude per period, {across.size}", f"{name}: {values.size}")
-        )
+        raise Refusal("curves", f"have one amplitude per period, {across.size}", f"{name}: {values.size}")
     return values, holds

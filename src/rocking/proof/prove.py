@@ -10,7 +10,7 @@ from rocking.model.orbit import Orbit
 from rocking.model.package import require_extra
 from rocking.model.proof import Proof
 from rocking.model.system import System, check_start
-from rocking.model.validation import instance, refusal, refuse_if, within
+from rocking.model.validation import WrongType, instance, refuse_if, within
 from rocking.model.verdict import Verdict
 
 MAX_HALF_WIDTH = 1.0
@@ -78,7 +78,7 @@ def prove(subject: Orbit | Verdict, uncertain: Mapping[str, float] | None = None
     """
     if not isinstance(subject, Verdict):
         if not isinstance(subject, Orbit):
-            raise TypeError(refusal("subject", "be an Orbit or a Verdict", subject))
+            raise WrongType("subject", "be an Orbit or a Verdict", subject)
         return _checked(subject, uncertain, None)
     refuse_if(subject.orbit is None, "subject", "be an orbit or a periodic verdict", str(subject.kind))
     assert subject.orbit is not None

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion, RecordFile, pga_doubt
-from rocking.model.validation import one_of, refusal, warn_of_input, whole, within
+from rocking.model.validation import Refusal, one_of, warn_of_input, whole, within
 from rocking.records import columns, cosmos, csmip, esm, geonet, knet, obspy_streams, peer, smc
 from rocking.records.text_file import UNITS, Channel, Content, RecordError, TextFile, given_unit
 
@@ -113,7 +113,7 @@ def read_ground_motion(
     count = len(found.channels)
     number = whole("channel", channel, 1, 10**9)
     if number > count:
-        raise ValueError(refusal("channel", f"be 1 to {count}, the channels of {found.name}", channel))
+        raise Refusal("channel", f"be 1 to {count}, the channels of {found.name}", channel)
     return _warned(found, number, *_motion(found, number, given))
 
 

@@ -18,7 +18,7 @@ from rocking.model.files import resolve_path
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.record_set import RecordSet
 from rocking.model.text import counted, listed, shown
-from rocking.model.validation import members, refusal, warn_of_input
+from rocking.model.validation import Refusal, WrongType, members, warn_of_input
 from rocking.records.read import read_ground_motion, read_ground_motions
 from rocking.records.text_file import TEXTS, Content, RecordError, TextFile
 
@@ -216,7 +216,7 @@ def read_record_set(
         return _set(_of_files([path], given), path.name)
     paths = [_path(each) for each in members("source", source, ALLOWED)]
     if not paths:
-        raise ValueError(refusal("source", "name one record file at least", paths))
+        raise Refusal("source", "name one record file at least", paths)
     return _set(_of_files(paths, given), "source")
 
 
@@ -240,7 +240,7 @@ class _Member(NamedTuple):
 
 def _path(value: Any) -> Path:
     if not isinstance(value, str | os.PathLike):
-        raise TypeError(refusal("source", ALLOWED, value))
+        raise WrongType("source", ALLOWED, value)
     return Path(value)
 
 

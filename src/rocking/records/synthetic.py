@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.model.ground_motion import GroundMotion
-from rocking.model.validation import refusal, whole, within
+from rocking.model.validation import Refusal, whole, within
 
 MAX_MOTIONS = 10_000
 MAX_VALUES = 20_000_000
@@ -111,9 +111,7 @@ def synthetic_ground_motions(
     pga = within("pga", pga, 1e-6, 1e3, "m/s²")
     samples = int(duration / step + 0.5) + 1
     if count * samples > MAX_VALUES:
-        raise ValueError(
-            refusal("count", f"be at most {MAX_VALUES // samples}, of {samples:,} samples each", count)
-        )
+        raise Refusal("count", f"be at most {MAX_VALUES // samples}, of {samples:,} samples each", count)
     nyquist = 1 / step
     soil = (
         within("soil_frequency", soil_frequency, 1e-3, nyquist, "rad/s"),

@@ -16,7 +16,7 @@ import numpy as np
 
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.text import both_ends, counted, shown
-from rocking.model.validation import refusal
+from rocking.model.validation import Refusal, WrongType
 
 TEXTS = "formats: PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, text in columns"
 
@@ -218,10 +218,10 @@ def _split(line: str, word: re.Pattern[str]) -> list[str]:
 def given_unit(units: str) -> str:
     """Return the unit that the argument `units` names; TypeError or ValueError for anything else."""
     if not isinstance(units, str):
-        raise TypeError(refusal("units", CHOICES, units))
+        raise WrongType("units", CHOICES, units)
     found = unit_of(units)
     if found is None:
-        raise ValueError(refusal("units", CHOICES, units))
+        raise Refusal("units", CHOICES, units)
     return found
 
 
@@ -235,16 +235,16 @@ class Content:
         if isinstance(source, bytes):
             self._keep(source, "bytes" if name is None else name)
         elif name is not None:
-            raise TypeError(refusal("name", "be omitted for a source that is not bytes", name))
+            raise WrongType("name", "be omitted for a source that is not bytes", name)
         elif isinstance(source, str | os.PathLike):
             self._read(Path(source))
         else:
-            raise TypeError(refusal("source", "be a path, bytes, or a Stream or Trace of ObsPy", source))
+            raise WrongType("source", "be a path, bytes, or a Stream or Trace of ObsPy", source)
 
     def _keep(self, data: bytes, name: str) -> None:
         """Take over bytes in memory."""
         if not isinstance(name, str):
-            raise TypeError(refusal("name", "be a str", name))
+            raise WrongType("name", "be a str", name)
         self.name = name
         shown = both_ends(name)
         if len(data) > MAX_BYTES:

@@ -9,7 +9,7 @@ from attrs import frozen
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.kernels.numerics import averages
-from rocking.model.validation import reals, refusal
+from rocking.model.validation import Refusal, reals
 
 MAX_BATCHES = 256
 MIN_BATCHES = 32
@@ -86,7 +86,7 @@ def batch_mean(sums: ArrayLike, lengths: ArrayLike | None = None) -> BatchMean:
     terms = _terms("sums", sums)
     spans = np.ones_like(terms) if lengths is None else _terms("lengths", lengths)
     if spans.shape != terms.shape or not (spans > 0.0).all():
-        raise ValueError(refusal("lengths", f"be {len(terms)} positive numbers, one for each sum", lengths))
+        raise Refusal("lengths", f"be {len(terms)} positive numbers, one for each sum", lengths)
     batches = 2 ** int(math.log2(min(len(terms), MAX_BATCHES)))
     edges = np.linspace(0, len(terms), batches + 1).astype(int)[:-1]
     return _judged(np.add.reduceat(terms, edges), np.add.reduceat(spans, edges))
@@ -95,7 +95,7 @@ def batch_mean(sums: ArrayLike, lengths: ArrayLike | None = None) -> BatchMean:
 def _terms(name: str, values: ArrayLike) -> NDArray[np.float64]:
     terms = np.atleast_1d(np.asarray(reals(name, values), dtype=float))
     if terms.ndim != 1 or not terms.size or not np.isfinite(terms).all():
-        raise ValueError(refusal(name, "be a sequence of at least one finite number", values))
+        raise Refusal(name, "be a sequence of at least one finite number", values)
     return terms
 
 

@@ -10,7 +10,7 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
-from rocking.model.validation import TooShort, reals, refusal, refuse_if
+from rocking.model.validation import Refusal, Text, TooShort, WrongType, reals, refuse_if
 from rocking.motion.motion import Motion
 
 if TYPE_CHECKING:
@@ -457,20 +457,20 @@ def _cloud(points: ArrayLike) -> Array:
             raise ValueError(
                 f"the block must stay upright for a dimension; it overturned in cycle {points.overturning.cycle}"
             )
-        raise TypeError(
-            refusal("points", allowed, points, "pass the points of its section, motion.section()")
-        )
+        raise WrongType("points", allowed, points, "pass the points of its section, motion.section()")
     try:
         cloud = np.asarray(reals("points", points))
     except TypeError:
-        raise TypeError(refusal("points", allowed, points)) from None
+        raise WrongType("points", allowed, points) from None
     if cloud.ndim == 1:
         cloud = cloud[:, None]
     refuse_if(cloud.ndim != 2 or cloud.shape[1] == 0, "points", allowed, points)
     if len(cloud) < MIN_POINTS or len(cloud) > MAX_POINTS:
-        raise ValueError(
-            f"points must be {MIN_POINTS:,} to {MAX_POINTS:,} in number; got {len(cloud):,} "
-            "(a section has one point per cycle until the block overturns)"
+        raise Refusal(
+            "points",
+            f"be {MIN_POINTS:,} to {MAX_POINTS:,} in number",
+            Text(f"{len(cloud):,}"),
+            "a section has one point per cycle until the block overturns",
         )
     if not np.isfinite(cloud).all():
         raise ValueError(

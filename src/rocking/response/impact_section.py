@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rocking.model.system import State, System
-from rocking.model.validation import refusal, whole
+from rocking.model.validation import WrongType, whole
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import kept_events
 
@@ -76,11 +76,11 @@ def impact_section(
     if isinstance(source, Motion):
         for name, value in (("start", start), ("cycles", cycles)):
             if value is not None:
-                raise TypeError(refusal(name, "be omitted with a motion", value))
+                raise WrongType(name, "be omitted with a motion", value)
         transient = whole("transient", transient, 0, max(source.cycles - 1, 0))
         return _impacts(source.events, transient)
     if not isinstance(source, System):
-        raise TypeError(refusal("source", "be a System or a Motion", source))
+        raise WrongType("source", "be a System or a Motion", source)
     cycles = DEFAULT_CYCLES if cycles is None else cycles
     transient = whole("transient", transient, 0, max(whole("cycles", cycles, 1, 10**9) - 1, 0))
     return kept_events(source, start, cycles, lambda events: _impacts(events, transient))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rocking.kernels.numerics import averages
 from rocking.model.system import State, System, check_periodic
 from rocking.model.text import counted, ordinal
-from rocking.model.validation import TooShort, refusal, whole
+from rocking.model.validation import Refusal, TooShort, whole
 from rocking.model.verdict import Outcome
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
@@ -279,16 +279,12 @@ def strikes_of(motion: Motion) -> tuple[str, Array, Array]:
     if np.isin(kinds, ("rest", "lean")).any() or motion.outcome is Outcome.AT_REST:
         raise ValueError("a rotation number requires a motion without dissipation; the block comes to rest")
     if motion.impacts and system.restitution < 1.0:
-        raise ValueError(
-            refusal("restitution", "be 1 for a rotation number (no dissipation)", system.restitution)
-        )
+        raise Refusal("restitution", "be 1 for a rotation number (no dissipation)", system.restitution)
     if motion.brace_hits and system.braces is not None and system.braces.restitution < 1.0:
-        raise ValueError(
-            refusal(
-                "braces.restitution",
-                "be 1 for a rotation number (no dissipation)",
-                system.braces.restitution,
-            )
+        raise Refusal(
+            "braces.restitution",
+            "be 1 for a rotation number (no dissipation)",
+            system.braces.restitution,
         )
     section, kind = (
         ("brace hits", "brace") if motion.brace_hits and not motion.impacts else ("impacts", "impact")

@@ -12,7 +12,7 @@ from attrs import field, frozen
 from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
 from rocking.model.system import System, quantities
 from rocking.model.text import counted
-from rocking.model.validation import instance, refusal, refuse_if, whole, within
+from rocking.model.validation import Refusal, WrongType, instance, refuse_if, whole, within
 from rocking.model.verdict import Outcome
 from rocking.motion.motion import Motion
 from rocking.response.spectral_lines import Line, Taper, combination, find_lines, parts_and_rotation
@@ -413,14 +413,14 @@ def spectral_density(
     samples, aliased = sampling(motion, transient, samples)
     most = MAX_VALUES // samples
     if cycles > most:
-        raise ValueError(
-            f"motion must have at most {most} cycles after its transient for {samples} samples in each; it has {cycles}"
+        raise Refusal(
+            "motion", f"have at most {most} cycles after its transient for {samples} samples in each", cycles
         )
     values = sampled(motion, transient, samples)
     mean = float(values.mean())
     values -= mean
     if not np.ptp(values):
-        raise ValueError(f"motion must move for a spectrum; its angle is {mean:.6g} throughout")
+        raise Refusal("motion", f"move for a spectrum; its angle is {mean:.6g} throughout")
     repeats = recurrence(values)
     segment = _segment(segment, cycles, repeats)
     taper = _taper(window, segment * samples)
@@ -465,11 +465,11 @@ def _check_motion(motion: Motion, transient: int) -> int:
     """Return the number of cycles after the transient; ValueError if the motion can have no spectrum."""
     instance("motion", motion, Motion).system.periodic  # noqa: B018 (it refuses)
     if motion.overturning is not None:
-        raise ValueError(
-            f"motion must not overturn for a spectrum; it overturned in cycle {motion.overturning.cycle}"
+        raise Refusal(
+            "motion", f"not overturn for a spectrum; it overturned in cycle {motion.overturning.cycle}"
         )
     if motion.outcome is not Outcome.BOUNDED:
-        raise ValueError("motion must not come to rest for a spectrum; it is at rest at its end")
+        raise Refusal("motion", "not come to rest for a spectrum; it is at rest at its end")
     cycles = motion.cycles - whole("transient", transient, 0, motion.cycles - 1)
     if cycles < SEGMENTS * LEAST_SEGMENT:
         raise _too_short(cycles, SEGMENTS * LEAST_SEGMENT, "")
@@ -487,7 +487,7 @@ def _segment(segment: int | None, cycles: int, repeats: int | None) -> int:
     segment = whole("segment", segment, LEAST_SEGMENT, cycles)
     if segment % period or segment < LEAST_SEGMENT * period:
         least = f"be a multiple of the response period of {period} cycles, at least {LEAST_SEGMENT * period}"
-        raise ValueError(refusal("segment", least, segment))
+        raise Refusal("segment", least, segment)
     return segment
 
 
@@ -495,16 +495,16 @@ def _taper(window: str | tuple, length: int) -> Taper:
     from scipy.signal import get_window
 
     if not isinstance(window, str | tuple):
-        raise TypeError(refusal("window", "be a window of scipy.signal.get_window", window))
+        raise WrongType("window", "be a window of scipy.signal.get_window", window)
     try:
         with np.errstate(all="ignore"):
             weights = get_window(window, length)
     except (TypeError, ValueError, IndexError):
-        raise ValueError(refusal("window", "be a window of scipy.signal.get_window", window)) from None
+        raise Refusal("window", "be a window of scipy.signal.get_window", window) from None
     refuse_if(not np.isfinite(weights).all(), "window", "have finite weights", window)
     taper = Taper(weights)
     if taper.side_lobes > HIGHEST_SIDE_LOBES:
-        raise ValueError(refusal("window", "have side lobes below a tenth of its main lobe", window))
+        raise Refusal("window", "have side lobes below a tenth of its main lobe", window)
     return taper
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from rocking.model.share import Share
 from rocking.model.survey_results import Attractor, BasinMap
 from rocking.model.system import MAX_START, System, check_between
-from rocking.model.validation import instance, refusal, refuse_if, whole, within
+from rocking.model.validation import WrongType, instance, refuse_if, whole, within
 from rocking.model.verdict import Kind
 from rocking.survey.basin_boundaries import WIDTHS, Boundaries
 from rocking.survey.engine.run_survey import run_survey
@@ -127,7 +127,7 @@ def basin_map(
         starts = grid_starts(asked)
     else:
         if store is not None:
-            raise TypeError(refusal("store", "be used without samples, because it holds a grid", str(store)))
+            raise WrongType("store", "be used without {samples}, because it holds a grid", str(store))
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
         reach = MAX_START if system.braces is None else system.braces.angle
         check_between(max(ends["angle"], key=abs), reach)

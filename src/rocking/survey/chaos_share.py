@@ -11,7 +11,7 @@ from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.share import Share
 from rocking.model.survey_results import ChaosShare
 from rocking.model.system import RANGES, check_below_flat
-from rocking.model.validation import real, refusal, whole, within
+from rocking.model.validation import WrongType, real, whole, within
 from rocking.response.classify import KINDS
 from rocking.survey.harmonic_spec import HarmonicSpec, check_quantity, coordinate, points
 from rocking.survey.measures.kind import interval_variables, outcome
@@ -96,7 +96,7 @@ def chaos_share(
         given = {"brace_angle": brace_angle, "brace_restitution": brace_restitution}
         fixed = {name: within(name, value, *RANGES[name]) for name, value in given.items()}
     elif real("brace_restitution", brace_restitution) != 1.0:
-        raise TypeError(refusal("brace_restitution", "be used with brace_angle", brace_restitution))
+        raise WrongType("brace_restitution", "be used with {brace_angle}", brace_restitution)
     if critical_angle is not None:
         fixed["critical_angle"] = float(check_quantity("critical_angle", critical_angle))
         if brace_angle is not None:

@@ -13,7 +13,7 @@ from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import Fragility
 from rocking.model.record_set import RecordSet, record_set
-from rocking.model.validation import reals, refusal, refuse_if, whole, within
+from rocking.model.validation import Refusal, reals, refuse_if, whole, within
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.incremental_dynamic_analysis import block_question, of_block
 from rocking.survey.measures.ending import UNDECIDED, ending
@@ -182,7 +182,7 @@ def _limits(values: Any) -> np.ndarray:
         or not ((found > 0.0) & (found <= MAX_LIMIT)).all()
         or not (np.diff(found) > 0.0).all()
     ):
-        raise ValueError(refusal("limits", allowed, values, "overturning follows by itself"))
+        raise Refusal("limits", allowed, values, "overturning follows by itself")
     return found
 
 

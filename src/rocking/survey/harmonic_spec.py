@@ -11,7 +11,7 @@ from attrs import frozen
 
 from rocking.kernels.forcing import parameters as numbers
 from rocking.model.system import NO_BRACES, RANGES, check_below_flat, check_between
-from rocking.model.validation import exactly_one, refusal
+from rocking.model.validation import Incomplete, Text, WrongType, exactly_one
 from rocking.survey.spec import SurveySpec, Values, is_axis, number_or_axis
 
 SYMBOLS = {
@@ -109,17 +109,18 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> HarmonicSpec:
     given = {name: asked[name] for name in RANGES if asked.get(name) is not None}
     missing = [name for name in ("amplitude", "restitution") if name not in given]
     if missing:
-        raise TypeError(f"{what} needs {' and '.join(missing)}; got none")
+        raise Incomplete(what, " and ".join(f"{{{name}}}" for name in missing), Text("none"))
     rebound = 1.0 if "brace_angle" in given else given.pop("brace_restitution", 1.0)
     if is_axis(rebound) or rebound != 1.0:
-        raise TypeError(refusal("brace_restitution", "be used with brace_angle", rebound))
+        raise WrongType("brace_restitution", "be used with {brace_angle}", rebound)
     checked = {name: check_quantity(name, value) for name, value in given.items()}
     axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
     fixed = {name: value for name, value in checked.items() if not isinstance(value, np.ndarray)}
     if len(axes) != count:
-        got, more = " and ".join(axes) or f"none of {', '.join(given)}", len(axes) - count
-        way_out = f" (give {'one' if more == 1 else more} of them as a number)" if more > 0 else ""
-        raise TypeError(f"{what} needs {_counted(count)}; got {got}{way_out}")
+        names, more = [f"{{{name}}}" for name in axes or given], len(axes) - count
+        got = " and ".join(names) if axes else f"none of {', '.join(names)}"
+        remedy = f"give {'one' if more == 1 else more} of them as a number" if more > 0 else ""
+        raise Incomplete(what, _counted(count), Text(got), remedy)
     asked_for = HarmonicSpec(axes, fixed)
     _check_braces(asked_for)
     return asked_for

@@ -11,7 +11,7 @@ from rocking.model.block import Block, block_attributes
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import IncrementalDynamicAnalysis
 from rocking.model.record_set import RecordSet, record_set
-from rocking.model.validation import instance, refusal
+from rocking.model.validation import Refusal, WrongType, instance
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.measures.ending import ending
 from rocking.survey.motion_spec import MotionSpec, motion_question
@@ -115,10 +115,10 @@ def block_question(
     instance("block", block, Block)
     for name, value in {"angle": angle, "polarity": polarity}.items():
         if is_axis(value):
-            raise TypeError(refusal(name, "be one number", value))
+            raise WrongType(name, "be one number", value)
     if not is_axis(levels):
         remedy = "such as np.linspace(1, 10, 19)"
-        raise TypeError(refusal("levels", "be an array of levels, ascending", levels, remedy))
+        raise WrongType("levels", "be an array of levels, ascending", levels, remedy)
     if one_level and len(levels) == 1:
         levels = levels[0]
     try:
@@ -137,11 +137,8 @@ def block_question(
             model=model,
             one_run=one_level,
         )
-    except (TypeError, ValueError) as error:
-        text = str(error)
-        if text.startswith("scale must"):
-            raise type(error)(text.replace("scale", "levels", 1)) from None
-        raise
+    except Refusal as error:
+        raise error.of({"scale": "levels"}) from None
 
 
 def of_block(found: xr.Dataset, asked: MotionSpec, records: RecordSet, block: Block) -> xr.Dataset:

@@ -13,7 +13,7 @@ from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_r
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
 from rocking.model.system import MODELS, RANGES
-from rocking.model.validation import one_of, refusal, within
+from rocking.model.validation import Refusal, one_of, within
 from rocking.survey.spec import SurveySpec, Values, number_or_axis
 
 MAX_LEVEL = 1e6
@@ -149,7 +149,7 @@ def motion_question(
         squattest = float(np.max(checked["slenderness"]))
         if housner_restitution(squattest, fixed["inertia_ratio"]) < 0.0:
             allowed = "be a critical angle in rad for which Housner's restitution is not negative"
-            raise ValueError(refusal("slenderness", allowed, squattest, "or give restitution"))
+            raise Refusal("slenderness", allowed, squattest, "or give {restitution}")
     measure, values = intensity_of(intensity, records)
     if len(records) > 1 or (one_run and not axes):
         axes = {"record": np.arange(float(len(records)))} | axes
@@ -157,7 +157,7 @@ def motion_question(
         fixed["record"] = 0.0
     if not axes:
         allowed = "be an array if nothing else varies and there is one record"
-        raise ValueError(refusal("size", allowed, checked["size"], "rk.simulate follows one motion"))
+        raise Refusal("size", allowed, checked["size"], "rk.simulate follows one motion")
     return MotionSpec(
         axes,
         fixed,
@@ -172,7 +172,7 @@ def motion_question(
 def _check_polarity(polarity: float | np.ndarray) -> None:
     wrong = [value for value in np.atleast_1d(polarity).tolist() if abs(value) != 1.0]
     if wrong:
-        raise ValueError(refusal("polarity", "be 1, -1 or [-1, 1]", wrong[0]))
+        raise Refusal("polarity", "be 1, -1 or [-1, 1]", wrong[0])
 
 
 def _each(formula: Any, values: np.ndarray, inertia_ratio: float) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.survey_results import OverturningCurve
-from rocking.model.validation import refusal, whole
+from rocking.model.validation import WrongType, whole
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.harmonic_spec import coordinate, question
 from rocking.survey.measures.kind import outcome
@@ -101,7 +101,7 @@ def overturning_amplitude(
     count = whole("phases", phases, 1, MAX_PHASES)
     amplitude = SCANNED if amplitude is None else amplitude
     if not is_axis(amplitude):
-        raise TypeError(refusal("amplitude", "be an axis of amplitudes to scan, ascending", amplitude))
+        raise WrongType("amplitude", "be an axis of amplitudes to scan, ascending", amplitude)
     measure = outcome(max_cycles, max_period, TITLE)
     turned = np.arange(count) * (np.pi / count)
     given = {

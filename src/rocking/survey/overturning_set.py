@@ -16,7 +16,7 @@ from rocking.model.package import VERSION
 from rocking.model.record_results import SWITCH_ROW, OverturningSet, intervals_of
 from rocking.model.record_set import Intensity, RecordSet, intensity_of, record_set
 from rocking.model.system import MODELS, RANGES
-from rocking.model.validation import instance, one_of, refusal, within
+from rocking.model.validation import Refusal, instance, one_of, within
 from rocking.survey.engine.tile_loop import engine
 from rocking.survey.measurement import Arrays
 from rocking.survey.measures.ending import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled
@@ -132,7 +132,7 @@ def overturning_set(
     scales = axis("scales", scales, LEVELS)
     angle = within("angle", angle, *RANGES["angle"])
     if within("polarity", polarity, -1.0, 1.0) not in (-1.0, 1.0):
-        raise ValueError(refusal("polarity", "be 1 or -1", polarity))
+        raise Refusal("polarity", "be 1 or -1", polarity)
     measure, values = intensity_of(intensity, chosen)
     if executor is not None:
         instance("executor", executor, Executor)

@@ -11,7 +11,7 @@ from rocking.model.forcing import Harmonic
 from rocking.model.proof import ProvedShare
 from rocking.model.share import Share
 from rocking.model.system import NO_BRACES, Braces, State, System
-from rocking.model.validation import refusal, whole
+from rocking.model.validation import Refusal, WrongType, whole
 from rocking.model.verdict import Kind
 from rocking.proof.prove import check_provable
 from rocking.response.classify import classify
@@ -83,11 +83,11 @@ def proved_share(found: Dataset, points: int = 300, seed: int = 0) -> ProvedShar
     points = whole("points", points, 1, MAX_POINTS)
     random = generator(seed)
     if not isinstance(found, Dataset) or "kind" not in found:
-        raise TypeError(refusal("found", "be a map of responses", found))
+        raise WrongType("found", "be a map of responses", found)
     periodic = found["kind"] == Kind.PERIODIC.code
     places = np.argwhere(periodic.values)
     if not len(places):
-        raise ValueError("found must have periodic responses; the map has none")
+        raise Refusal("found", "have periodic responses; the map has none")
     chosen = places[np.sort(random.choice(len(places), min(points, len(places)), replace=False))]
     orbits, starts, reasons = 0, 0, Counter[str]()
     for place in chosen:

@@ -10,7 +10,7 @@ from attrs import field, frozen
 
 from rocking.model.forcing import KINDS, SINES
 from rocking.model.system import RANGES
-from rocking.model.validation import one_of, refusal
+from rocking.model.validation import WrongType, one_of
 from rocking.survey.spec import SurveySpec, Values, is_axis, number_or_axis
 
 QUANTITIES: dict[str, tuple[str, str]] = {
@@ -88,7 +88,7 @@ def pulse_question(
     for name, value in given.items():
         if name in ("amplitude", "frequency") and not is_axis(value):
             allowed = "be an ascending array, an axis of the spectrum"
-            raise TypeError(refusal(name, allowed, value, "such as np.linspace(start, stop, count)"))
+            raise WrongType(name, allowed, value, "such as np.linspace(start, stop, count)")
         checked = number_or_axis(name, value, RANGES[name])
         if isinstance(checked, np.ndarray):
             axes[name] = checked

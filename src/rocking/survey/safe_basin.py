@@ -12,7 +12,7 @@ from rocking.model.progress import Bar
 from rocking.model.share import Share
 from rocking.model.survey_results import SafeBasin
 from rocking.model.system import RANGES
-from rocking.model.validation import instance, refusal, whole
+from rocking.model.validation import WrongType, instance, whole
 from rocking.survey.harmonic_spec import HarmonicSpec, Points, coordinate, points, question
 from rocking.survey.measures.kind import interval_variables, outcome
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
@@ -112,7 +112,7 @@ def safe_basin(
     }
     asked = question(given, 1, "a safe basin")
     if "amplitude" not in asked.axes:
-        raise TypeError(refusal("amplitude", "be an axis of amplitudes, ascending", amplitude))
+        raise WrongType("amplitude", "be an axis of amplitudes, ascending", amplitude)
     reach = (
         RANGES["angle"] if brace_angle is None else (-asked.fixed["brace_angle"], asked.fixed["brace_angle"])
     )

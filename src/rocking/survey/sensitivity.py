@@ -13,7 +13,7 @@ from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import Sensitivity
 from rocking.model.record_set import RecordSet, record_set
-from rocking.model.validation import instance, refusal, refuse_if, whole
+from rocking.model.validation import Refusal, instance, refuse_if, whole
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.incremental_dynamic_analysis import block_question, of_block
 from rocking.survey.measures.ending import OVERTURNED, UNDECIDED, ending
@@ -130,7 +130,7 @@ def _between(motion: GroundMotion) -> GroundMotion:
     """Return the motion sampled half a step later."""
     values = motion.acceleration
     if values.size < 2:
-        raise ValueError(refusal("records", "have two samples at least", values.tolist()))
+        raise Refusal("records", "have two samples at least", values.tolist())
     return GroundMotion(0.5 * (values[1:] + values[:-1]), step=motion.step, name=motion.name)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.model.text import shown
-from rocking.model.validation import reals, refusal, within
+from rocking.model.validation import Refusal, Text, WrongType, reals, within
 
 Values = Mapping[str, np.ndarray]
 Spec = TypeVar("Spec", bound="SurveySpec")
@@ -61,21 +61,20 @@ def axis(name: str, values: Any, span: tuple[float, float]) -> np.ndarray:
     try:
         array = np.asarray(reals(name, values))
     except TypeError:
-        raise TypeError(refusal(name, allowed, values)) from None
+        raise WrongType(name, allowed, values) from None
     if array.ndim != 1 or array.size < 2:
-        found = "an empty array" if array.size == 0 else f"an array of shape {array.shape}"
-        way_out = " (give a number for a quantity that does not vary)" if array.size == 1 else ""
-        raise ValueError(f"{name} must {allowed}; got {found}{way_out}")
+        got = "an empty array" if array.size == 0 else f"an array of shape {array.shape}"
+        remedy = "give a number for a quantity that does not vary" if array.size == 1 else ""
+        raise Refusal(name, allowed, Text(got), remedy)
     inside = (array >= low) & (array <= high)
     if not inside.all():
         where = int(np.argmin(inside))
-        raise ValueError(f"{name} must {allowed}; got {shown(array[where])} at index {where}")
+        raise Refusal(name, allowed, Text(f"{shown(array[where])} at index {where}"))
     rising = np.diff(array) > 0
     if not rising.all():
         where = int(np.argmin(rising))
-        raise ValueError(
-            f"{name} must {allowed}; got {shown(array[where])} before {shown(array[where + 1])} at index {where + 1}"
-        )
+        got = f"{shown(array[where])} before {shown(array[where + 1])} at index {where + 1}"
+        raise Refusal(name, allowed, Text(got))
     return array + 0.0  # no negative zeros
 
 
@@ -86,9 +85,7 @@ def number_or_axis(name: str, value: Any, span: tuple[float, float]) -> float | 
     if isinstance(value, str):
         low, high = span
         way_out = "an axis is an array, such as np.linspace(start, stop, count)"
-        raise TypeError(
-            refusal(name, f"be a real number in [{low:.6g}, {high:.6g}] or an array", value, way_out)
-        )
+        raise WrongType(name, f"be a real number in [{low:.6g}, {high:.6g}] or an array", value, way_out)
     return within(name, value, *span)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
-from rocking.model.validation import one_of, reals, refusal
+from rocking.model.validation import Refusal, Text, one_of, reals
 
 MAX_CYCLES = 9_999
 MAX_SIZE = 1e100
@@ -22,7 +22,7 @@ def between(name: str, values: Any, low: float, high: float) -> Any:
     outside = ~((array >= low) & (array <= high))
     if outside.any():
         first = array[outside].flat[0] if array.ndim else values
-        raise ValueError(refusal(name, f"lie in [{low:.6g}, {high:.6g}]", first))
+        raise Refusal(name, f"lie in [{low:.6g}, {high:.6g}]", first)
     return array
 
 
@@ -33,7 +33,9 @@ def together(**values: Any) -> list[Any]:
         np.broadcast_shapes(*shapes)
     except ValueError:
         got = ", ".join(map(str, shapes))
-        raise ValueError(f"{', '.join(values)} must have shapes that broadcast; got {got}") from None
+        raise Refusal(
+            ", ".join(f"{{{name}}}" for name in values), "have shapes that broadcast", Text(got)
+        ) from None
     return [np.asarray(value) for value in values.values()]
 
 
@@ -64,7 +66,7 @@ def odd(values: Any) -> Any:
         remedy = (
             "no mode with even n is symmetric: half a response later the forcing is unchanged, not reversed"
         )
-        raise ValueError(refusal("n", allowed, first, remedy if even else ""))
+        raise Refusal("n", allowed, first, remedy if even else "")
     return array
 
 

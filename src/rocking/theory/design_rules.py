@@ -12,7 +12,7 @@ import numpy as np
 
 from rocking.model.block import RECTANGLE, Block
 from rocking.model.ground_motion import GroundMotion
-from rocking.model.validation import instance, one_of, refusal, within
+from rocking.model.validation import Refusal, instance, one_of, within
 from rocking.theory.arguments import between, plain, restitutions, together
 from rocking.theory.free_rocking import free_quarter_period
 
@@ -231,7 +231,7 @@ def contact_restitution(critical_angle: Any, fraction: Any) -> Any:
     if (found < 0.0).any():
         first = float(np.broadcast_to(angle, found.shape)[found < 0.0].flat[0])
         allowed = "give a restitution that is not negative"
-        raise ValueError(refusal("critical_angle", allowed, first, "the block is too squat to rock on"))
+        raise Refusal("critical_angle", allowed, first, "the block is too squat to rock on")
     return plain(found)
 
 

@@ -15,7 +15,7 @@ from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.orbits import floquet, mode_admissibility, symmetric_mode
 from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
 from rocking.model.orbit import Mode
-from rocking.model.validation import refusal, whole, within
+from rocking.model.validation import Refusal, whole, within
 from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restitutions, together
 
 
@@ -209,7 +209,7 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
     e = within("restitution", restitution, 0.0, 1.0)
     if e == 0.0:
         remedy = "an impact that stops the block leaves no mode"
-        raise ValueError(refusal("restitution", "lie in (0, 1] for symmetric modes", restitution, remedy))
+        raise Refusal("restitution", "lie in (0, 1] for symmetric modes", restitution, remedy)
     odd(whole("n", n, 1, MAX_CYCLES))
     beta = numbers.harmonic_parameters(amplitude, omega, period, 0.0, e).forcing.response
     modes = []

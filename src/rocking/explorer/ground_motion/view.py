@@ -27,7 +27,7 @@ from rocking.model.block import Block
 from rocking.model.forcing import KINDS
 from rocking.model.ground_motion import STEPS
 from rocking.model.system import MODELS
-from rocking.model.validation import refusal
+from rocking.model.validation import Refusal
 
 SOURCES = ("example", "synthetic-1", "synthetic-2", "synthetic-3", "pulse", "file")
 UNITS = ("", "m/s²", "cm/s²", "mm/s²", "g", "gal")
@@ -107,7 +107,7 @@ def _range(low: float, high: float) -> Callable[[str, str], Span]:
         first, _, last = text.partition(":")
         span = Span(end(name, first), end(name, last))
         if not span.high >= NARROWEST * span.low:
-            raise ValueError(refusal(name, "be LOW:HIGH, with LOW clearly below HIGH", text))
+            raise Refusal(name, "be LOW:HIGH, with LOW clearly below HIGH", text)
         return span
 
     return read
@@ -143,8 +143,8 @@ def _with_block(shown: GroundView) -> GroundView:
     """Return the view if its block has Housner's restitution."""
     try:
         Block(shown.height, shown.width)
-    except ValueError as error:  # Housner's restitution, which follows from height and width
-        raise Refused(at_width(str(error))) from None
+    except Refusal as error:  # Housner's restitution, which follows from height and width
+        raise Refused(at_width(error)) from None
     return shown
 
 

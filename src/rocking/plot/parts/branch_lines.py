@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model.orbit import Orbit, Stability
-from rocking.model.validation import refusal
+from rocking.model.validation import WrongType
 from rocking.orbits.branch import BRANCHES_OFF, Branch
 from rocking.plot.parts.axis_units import Quantities
 
@@ -119,5 +119,5 @@ def several(result: Any, kind: type[Drawn]) -> list[Drawn]:
     """Return one or several results of a type as a list; raise TypeError for any other argument."""
     each = [result] if isinstance(result, kind) else list(result) if np.iterable(result) else []
     if not each or not all(isinstance(one, kind) for one in each):
-        raise TypeError(refusal("result", f"be a {kind.__name__} or a sequence of them", result))
+        raise WrongType("result", f"be a {kind.__name__} or a sequence of them", result)
     return each

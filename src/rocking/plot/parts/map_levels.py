@@ -13,7 +13,7 @@ import numpy as np
 from rocking.model.files import resolve_path
 from rocking.model.package import require_extra
 from rocking.model.text import shown_path
-from rocking.model.validation import refusal, refuse_if
+from rocking.model.validation import WrongType, refuse_if
 from rocking.plot.parts.legend import NONE, looks
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def _levels(found: Any) -> list[xr.Dataset]:
     for level in levels:
         kinds = getattr(level, "kind", None)
         if getattr(kinds, "ndim", 0) != 2 or not all(hasattr(level, name) for name in NEEDED):
-            raise TypeError(refusal("found", allowed, found))
+            raise WrongType("found", allowed, found)
     refuse_if(not levels, "found", allowed, found)
     return levels
 

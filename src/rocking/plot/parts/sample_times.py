@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.model.validation import instance, refusal, refuse_if, within
+from rocking.model.validation import Refusal, WrongType, instance, refuse_if, within
 from rocking.motion.motion import Motion, end_shown, fallen, has_cycles
 
 SAMPLES_PER_TIME = 64
@@ -33,10 +33,10 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
     try:
         first, last = cycles
     except (TypeError, ValueError):
-        raise TypeError(refusal("cycles", "be a pair (first, last)", cycles)) from None
+        raise WrongType("cycles", "be a pair (first, last)", cycles) from None
     first, last = (within("cycles", each, 0, motion.cycles) for each in (first, last))
     if last <= first:
-        raise ValueError(refusal("cycles", "be a pair (first, last) with first < last", cycles))
+        raise Refusal("cycles", "be a pair (first, last) with first < last", cycles)
     period = motion.system.periodic.period
     allowed = f"begin before |Θ| = {fallen(motion):g}, in cycle {end / period:.4g}"
     refuse_if(first * period >= end, "cycles", allowed, cycles)

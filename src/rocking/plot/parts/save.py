@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.model.files import check_writable, replacing
-from rocking.model.validation import refusal, within
+from rocking.model.validation import WrongType, within
 
 # Without these matplotlib writes the date and its own version into the file.
 METADATA = {
@@ -63,7 +63,7 @@ def save(figure: Figure | Axes, path: str | Path, dpi: float = 200.0) -> Path:
     """
     drawn = figure.figure if isinstance(figure, Axes) else figure
     if not isinstance(drawn, Figure):
-        raise TypeError(refusal("figure", "be a matplotlib Figure or Axes", figure))
+        raise WrongType("figure", "be a matplotlib Figure or Axes", figure)
     dpi = within("dpi", dpi, 10.0, 2400.0)
     path = check_path(path, tuple(METADATA))
     suffix = path.suffix.lower()
@@ -76,5 +76,5 @@ def save(figure: Figure | Axes, path: str | Path, dpi: float = 200.0) -> Path:
 def check_path(path: str | Path, suffixes: Sequence[str]) -> Path:
     """Return `path` if it can be written and has one of these suffixes; raise before any computation otherwise."""
     if not isinstance(path, str | os.PathLike):
-        raise TypeError(refusal("path", f"be the name of a file that ends in {', '.join(suffixes)}", path))
+        raise WrongType("path", f"be the name of a file that ends in {', '.join(suffixes)}", path)
     return check_writable("path", path, suffixes)

@@ -15,7 +15,7 @@ from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, 
 from numpy.typing import NDArray
 
 from rocking.model.block import Block
-from rocking.model.validation import instance, members, refusal, refuse_if, whole, within
+from rocking.model.validation import Refusal, instance, members, refuse_if, whole, within
 from rocking.plot import palette
 from rocking.plot.parts import figures
 
@@ -220,7 +220,7 @@ def check_labels(ax: Axes, across: str, upright: str) -> None:
     """Raise ValueError if axes that are drawn into show other quantities than these."""
     there = ax.get_xlabel(), ax.get_ylabel()
     if any(there) and there != (across, upright):
-        raise ValueError(refusal("ax", f"show {across} and {upright}", " and ".join(there)))
+        raise Refusal("ax", f"show {across} and {upright}", " and ".join(there))
 
 
 def patches(ax: Axes, handles: list, columns: int = 2) -> None:

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from rocking.model.forcing import MAX_AMPLITUDE
-from rocking.model.validation import members, one_of, refusal, refuse_if
+from rocking.model.validation import Refusal, members, one_of, refuse_if
 from rocking.plot.parts import style
 from rocking.plot.parts.style import DOTTED
 from rocking.theory import (
@@ -68,12 +68,10 @@ def check(names: Iterable[str], axes: Iterable[str], attributes: Mapping[str, An
         f"{upward} and {across}",
     )
     if names and "brace_angle" in attributes:
-        raise ValueError(
-            refusal(
-                "curves",
-                "lie over a map of a block without braces",
-                f"brace_angle = {attributes['brace_angle']}",
-            )
+        raise Refusal(
+            "curves",
+            "lie over a map of a block without braces",
+            f"brace_angle = {attributes['brace_angle']}",
         )
     return names
 

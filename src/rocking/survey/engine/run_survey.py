@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from rocking.model.package import require_extra
 from rocking.model.progress import Bar
 from rocking.model.text import shown_path
-from rocking.model.validation import instance
+from rocking.model.validation import Refusal, instance
 from rocking.survey.engine.cost import cost
 from rocking.survey.engine.progress import Watcher
 from rocking.survey.engine.tile_loop import cores, run
@@ -40,7 +40,7 @@ def run_survey(
     instance("progress", progress, bool)
     instance("repair", repair, bool)
     if store is None and repair:
-        raise ValueError("repair must be used with store, whose damaged tiles it recomputes")
+        raise Refusal("repair", "be used with {store}, whose damaged tiles it recomputes")
     if store is None:
         check_fits(asked, measure)
         results = Memory(asked, measure)

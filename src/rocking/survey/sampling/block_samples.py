@@ -12,7 +12,7 @@ from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY, frequency_parameter
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import RecordSet
-from rocking.model.validation import refusal
+from rocking.model.validation import Refusal
 from rocking.survey.motion_spec import MotionSpec, Runs
 from rocking.survey.spec import Values
 
@@ -109,6 +109,6 @@ def fingerprints(records: RecordSet) -> tuple[str, ...]:
             allowed = "hold independent motions"
             found = f"{name}, the same as {seen[mark]}"
             remedy = "leave one out: a copy, scaled or reversed, says nothing new"
-            raise ValueError(refusal("records", allowed, found, remedy))
+            raise Refusal("records", allowed, found, remedy)
         seen[mark] = name
     return tuple(seen)

@@ -9,8 +9,7 @@ import numpy as np
 
 from rocking.model.progress import Bar
 from rocking.model.system import RANGES
-from rocking.model.text import shown
-from rocking.model.validation import instance, reals, refusal, whole
+from rocking.model.validation import Refusal, Text, WrongType, instance, reals, whole
 from rocking.survey.engine.progress import count_when_done
 from rocking.survey.engine.tile_loop import engine
 from rocking.survey.harmonic_spec import Points
@@ -57,11 +56,11 @@ def span(name: str, values: Any, widest: tuple[float, float] | None = None) -> t
     try:
         pair = np.asarray(reals(name, values))
     except TypeError:
-        raise TypeError(refusal(name, allowed, values)) from None
+        raise WrongType(name, allowed, values) from None
     if pair.shape != (2,):
-        raise ValueError(f"{name} must {allowed}; got {_kind_of(pair)}")
+        raise Refusal(name, allowed, Text(_kind_of(pair)))
     if not low <= pair[0] < pair[1] <= high:
-        raise ValueError(f"{name} must {allowed}; got ({shown(pair[0])}, {shown(pair[1])})")
+        raise Refusal(name, allowed, tuple(pair.tolist()))
     return float(pair[0]), float(pair[1])
 
 

@@ -12,7 +12,7 @@ from threading import current_thread, main_thread
 
 from rocking.model.files import check_folder, not_written, resolve_path
 from rocking.model.text import shown_path
-from rocking.model.validation import refusal
+from rocking.model.validation import WrongType
 
 ROOT = "zarr.json"
 UNFINISHED = re.compile(r"(zarr|\d+)\.[0-9a-f]{32}\.partial")
@@ -29,7 +29,7 @@ def check_store(path: str | os.PathLike[str]) -> Path:
     A store may lie where nothing can be written: it can be read.
     """
     if not isinstance(path, str | os.PathLike) or not os.fspath(path):
-        raise TypeError(refusal("store", "be the path of a folder", path))
+        raise WrongType("store", "be the path of a folder", path)
     folder = Path(path)
     place = resolve_path("store", folder)
     if place.exists() and not place.is_dir():
