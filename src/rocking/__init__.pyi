@@ -59,22 +59,22 @@ from rocking.orbits.continuation import switch_branch as switch_branch
 from rocking.orbits.find_orbit import find_orbit as find_orbit
 from rocking.orbits.find_orbits import Orbits as Orbits
 from rocking.orbits.find_orbits import find_orbits as find_orbits
+from rocking.orbits.frequency_response import FrequencyResponse as FrequencyResponse
 from rocking.orbits.frequency_response import frequency_response as frequency_response
-from rocking.orbits.frequency_response_result import FrequencyResponse as FrequencyResponse
 from rocking.orbits.grazing_transition import GrazingTransition as GrazingTransition
 from rocking.orbits.grazing_transition import grazing_transition as grazing_transition
 from rocking.orbits.horseshoe import horseshoe as horseshoe
-from rocking.orbits.manifold_tangency import manifold_gap as manifold_gap
-from rocking.orbits.manifold_tangency import tangency_amplitude as tangency_amplitude
+from rocking.orbits.orbit_diagram import OrbitDiagram as OrbitDiagram
 from rocking.orbits.orbit_diagram import orbit_diagram as orbit_diagram
-from rocking.orbits.orbit_diagram_result import OrbitDiagram as OrbitDiagram
 from rocking.orbits.orbit_manifolds import OrbitManifolds as OrbitManifolds
 from rocking.orbits.orbit_manifolds import orbit_manifolds as orbit_manifolds
+from rocking.orbits.response_diagram import ResponseDiagram as ResponseDiagram
 from rocking.orbits.response_diagram import response_diagram as response_diagram
-from rocking.orbits.response_diagram_result import ResponseDiagram as ResponseDiagram
 from rocking.orbits.saddle_manifolds import Manifold as Manifold
 from rocking.orbits.saddle_manifolds import SaddleManifolds as SaddleManifolds
+from rocking.orbits.saddle_manifolds import manifold_gap as manifold_gap
 from rocking.orbits.saddle_manifolds import saddle_manifolds as saddle_manifolds
+from rocking.orbits.saddle_manifolds import tangency_amplitude as tangency_amplitude
 from rocking.proof.prove import prove as prove
 from rocking.records.read import example_ground_motion as example_ground_motion
 from rocking.records.read import read_ground_motion as read_ground_motion
@@ -93,19 +93,19 @@ from rocking.response.rotation_number import rotation_number as rotation_number
 from rocking.response.spectrum import Peak as Peak
 from rocking.response.spectrum import SpectralDensity as SpectralDensity
 from rocking.response.spectrum import spectral_density as spectral_density
-from rocking.survey.basin_map import basin_map as basin_map
-from rocking.survey.chaos_share import chaos_share as chaos_share
+from rocking.survey.basins import basin_map as basin_map
+from rocking.survey.basins import safe_basin as safe_basin
 from rocking.survey.fragility import fragility as fragility
 from rocking.survey.incremental_dynamic_analysis import (
     incremental_dynamic_analysis as incremental_dynamic_analysis,
 )
 from rocking.survey.overturning_amplitude import overturning_amplitude as overturning_amplitude
 from rocking.survey.overturning_set import overturning_set as overturning_set
-from rocking.survey.overturning_spectrum import overturning_spectrum as overturning_spectrum
 from rocking.survey.parametric_map import parametric_map as parametric_map
-from rocking.survey.proved_share import proved_share as proved_share
 from rocking.survey.repeatability import repeatability as repeatability
-from rocking.survey.repeatability_map import repeatability_map as repeatability_map
-from rocking.survey.rocking_spectrum import rocking_spectrum as rocking_spectrum
-from rocking.survey.safe_basin import safe_basin as safe_basin
+from rocking.survey.repeatability import repeatability_map as repeatability_map
 from rocking.survey.sensitivity import sensitivity as sensitivity
+from rocking.survey.shares import chaos_share as chaos_share
+from rocking.survey.shares import proved_share as proved_share
+from rocking.survey.spectra import overturning_spectrum as overturning_spectrum
+from rocking.survey.spectra import rocking_spectrum as rocking_spectrum

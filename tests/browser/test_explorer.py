@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 from rocking.papers.yim_lin_1991.cases import PERIODIC
-from rocking.plot.parts.legend import LOOKS
+from rocking.plot.style import LOOKS
 
 PICTURES = ("history", "portrait", "section", "spectrum", "basin")
 # amplitude, period, restitution, and the known verdict

@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from rocking.survey.engine.tile_loop import Pending, _settle
-from rocking.survey.store.locking import defer_interrupt
+from rocking.survey.run_survey import Pending, _settle
+from rocking.survey.store_access import defer_interrupt
 from stored_surveys import SURVEYS, chunks, files
 
 # No thread begins here: then every run may be a fork of this process.

@@ -116,7 +116,7 @@ def test_an_interrupted_run_leaves_nothing(project, tmp_path):
 )
 def test_entries_are_selected_by_file(words, kernels, count):
     files = [
-        "src/rocking/plot/section.py",
+        "src/rocking/plot/sections.py",
         "src/rocking/kernels/march/march.py",
         "src/rocking/model/block.py",
     ]

@@ -34,10 +34,10 @@ from rocking.explorer.view_state import DEFAULT, POINTS, Span, ViewState, closes
 from rocking.explorer.worker_pools import Jobs, Workers
 from rocking.model.text import percent
 from rocking.model.verdict import Criterion
-from rocking.plot.parts import style
-from rocking.plot.parts.legend import LOOKS, NONE, looks
-from rocking.survey.engine.tile_loop import cores
-from rocking.survey.measures import attractors
+from rocking.plot import style
+from rocking.plot.style import LOOKS, NONE, looks
+from rocking.survey import attractors
+from rocking.survey.run_survey import cores
 
 ASYMMETRIC = 2
 """Place in `LOOKS` of an asymmetric response of period 1."""

@@ -52,7 +52,7 @@ from rocking.model.forcing import KINDS
 from rocking.model.validation import TooManyEvents
 from rocking.model.verdict import Outcome
 from rocking.records import read as reading_process
-from rocking.survey.measures.block_endings import BlockEndings
+from rocking.survey.ending_measures import BlockEndings
 
 G = 9.80665
 CODE = tuple(Outcome).index(Outcome.OVERTURNED)

@@ -10,7 +10,7 @@ from rocking.kernels.entry_point import EntryPoint
 from rocking.model.package import EXTRAS
 from rocking.papers.yim_lin_1991.reproduce import reproduce
 from rocking.records.text_file import TEXTS
-from rocking.survey.store.export import to_netcdf
+from rocking.survey.export import to_netcdf
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 MOTION = rk.simulate(SYSTEM, cycles=3)
@@ -72,7 +72,7 @@ import importlib, pkgutil, sys
 blocked = sys.argv[1:]
 sys.modules |= dict.fromkeys(blocked)
 import rocking as rk
-own = "rocking.kernels.", "rocking.explorer", "rocking.proof.", "rocking.survey.store.", "rocking.__main__"
+own = "rocking.kernels.", "rocking.explorer", "rocking.proof.", "rocking.survey.zarr_", "rocking.__main__"
 for module in pkgutil.walk_packages(rk.__path__, "rocking."):
     if not module.name.startswith(own):
         importlib.import_module(module.name)

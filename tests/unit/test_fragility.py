@@ -12,15 +12,16 @@ from scipy.stats import norm
 import rocking as rk
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.record_set import RecordSet
-from rocking.survey.sampling.block_samples import block_samples, fingerprint
-from rocking.survey.sampling.clustered_fractions import (
+from rocking.survey.fragility_curve import (
+    DETERMINED,
     clustered_fractions,
     effective_records,
+    log_basic_interval,
+    lognormal_fits,
     two_level_weights,
     weighted_counts,
 )
-from rocking.survey.sampling.fragility_curve import log_basic_interval
-from rocking.survey.sampling.lognormal_fit import DETERMINED, lognormal_fits
+from rocking.survey.random_points import block_samples, fingerprint
 
 BLOCK = rk.Block(2.0, 0.5)
 LEVELS = np.linspace(2.0, 10.0, 9)

@@ -7,7 +7,7 @@ import pytest
 
 import rocking as rk
 from rocking.model.record_set import INTENSITIES, intensity_of
-from rocking.survey.motion_spec import motion_question
+from rocking.survey.spec import motion_question
 
 GRAVITY = 9.80665
 MOTIONS = [

@@ -27,7 +27,7 @@ from rocking.model.validation import (
     reals,
     whole,
 )
-from rocking.survey.store.locking import StoreError
+from rocking.survey.store_access import StoreError
 
 ONE = {
     "array": np.array,

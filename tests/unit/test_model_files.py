@@ -16,7 +16,7 @@ from rocking.model.files import (
     replacing,
     replacing_folder,
 )
-from rocking.survey.store.locking import wrap_write_errors
+from rocking.survey.store_access import wrap_write_errors
 
 
 def names(folder):

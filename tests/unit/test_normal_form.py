@@ -8,7 +8,7 @@ import pytest
 import rocking as rk
 from rocking.orbits import normal_form
 from rocking.orbits.event_chain import chain_of, equations
-from rocking.orbits.power_series import cosine_and_sine, exponential, product, quotient
+from rocking.orbits.normal_form import cosine_and_sine, exponential, product, quotient
 
 BRACED = rk.System(rk.Harmonic(4.0, period=1.0), 0.8, rk.Braces(0.3, 0.7))
 DAMPED = rk.System(rk.Harmonic(2.2, period=2.0), 0.91)

@@ -3,7 +3,7 @@
 import numpy as np
 
 import rocking as rk
-from rocking.orbits.orbit_registry import SAME, OrbitRegistry
+from rocking.orbits.find_orbits import SAME, OrbitRegistry
 
 
 def test_states_belong_to_the_nearest_known_orbit_within_the_tolerance():

@@ -137,7 +137,7 @@ def test_curves_grow_with_the_cycles_and_finer_ones_have_more_points():
 
 
 def test_what_is_not_resolved_says_so(monkeypatch):
-    monkeypatch.setattr(sys.modules["rocking.orbits.manifold_growth"], "MAX_POINTS", 300)
+    monkeypatch.setattr(sys.modules["rocking.orbits.saddle_manifolds"], "MAX_POINTS", 300)
     rough = rk.saddle_manifolds(SYSTEM, cycles=4)
     assert not rough.unstable[0].resolved
     assert "not resolved (reduce cycles)" in str(rough)

@@ -12,7 +12,7 @@ from PIL import Image, ImageSequence
 
 import rocking as rk
 from rocking.plot import palette
-from rocking.plot.parts.film_scene import Scene, corners
+from rocking.plot.film import Scene, corners
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 BRACED = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0))
@@ -98,7 +98,7 @@ def test_block_leans_as_the_motion_says_and_the_base_moves_against_its_accelerat
 def test_displacement_of_the_base_is_to_scale_where_the_picture_says_so():
     # amplitude a_x/ω² = 0.5 m, a quarter of the block's height: no factor is needed
     block = rk.Block(height=2.0, width=0.5)
-    from rocking.plot.animation import _Film
+    from rocking.plot.film import _Film
 
     motion = rk.simulate(block.system(displacement=0.5, frequency_hz=0.5), cycles=4)
     film = _Film(motion, block, np.linspace(0, motion.duration, 200), 1.0)
@@ -107,7 +107,7 @@ def test_displacement_of_the_base_is_to_scale_where_the_picture_says_so():
 
 
 def test_small_angles_are_exaggerated_and_the_picture_says_by_how_much():
-    from rocking.plot.animation import NOMINAL, _Film
+    from rocking.plot.film import NOMINAL, _Film
 
     motion = rk.simulate(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), cycles=60)
     film = _Film(motion, None, np.linspace(50, 60, 500), 1.0)
@@ -136,7 +136,7 @@ def test_block_that_starts_beyond_the_fall_lies_flat_at_once(tmp_path):
 
 @pytest.mark.parametrize("angle", [1.2, 5.0, 7.0])
 def test_dot_lies_on_the_curve_of_a_block_that_starts_beyond_return(angle):
-    from rocking.plot.animation import NOMINAL, _Film, _window
+    from rocking.plot.film import NOMINAL, _Film, _window
 
     motion = rk.simulate(
         rk.System(rk.Harmonic(amplitude=1.0, period=1.0), restitution=0.9), rk.State(angle=angle), cycles=50
@@ -162,7 +162,7 @@ def test_dot_lies_on_the_curve_of_a_block_that_starts_beyond_return(angle):
     ids=["decay", "before rest", "still", "shaken", "fast"],
 )
 def test_film_shows_the_end_of_the_motion_unless_told_otherwise(motion, window):
-    from rocking.plot.animation import NOMINAL, _window
+    from rocking.plot.film import NOMINAL, _window
 
     assert _window(motion, NOMINAL, None) == pytest.approx(window)
 
@@ -195,7 +195,7 @@ def test_colours_are_exact_and_the_same_in_every_frame(tmp_path, system, start):
     ],
 )
 def test_reading_has_three_figures_of_the_largest_angle(system, start, block, reading):
-    from rocking.plot.animation import NOMINAL, _Film, _window
+    from rocking.plot.film import NOMINAL, _Film, _window
 
     motion = rk.simulate(system, rk.State(angle=start), cycles=200)
     window = _window(motion, NOMINAL, None)
@@ -270,7 +270,7 @@ def test_argument_of_another_kind_is_refused_in_one_line(tmp_path, monkeypatch, 
 
 
 def film_of(motion, block, count=200):
-    from rocking.plot.animation import NOMINAL, _Film, _window
+    from rocking.plot.film import NOMINAL, _Film, _window
 
     window = _window(motion, block or NOMINAL, None)
     return window, _Film(motion, block, np.linspace(*window, count), 1.0)

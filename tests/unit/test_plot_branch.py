@@ -7,8 +7,8 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import rocking as rk
-from rocking.plot.bifurcation_curve import LOOKS as CURVES
-from rocking.plot.parts.legend import LOOKS
+from rocking.plot.curves import LOOKS as CURVES
+from rocking.plot.style import LOOKS
 
 BLOCK = rk.Block(2.0, 0.5)
 

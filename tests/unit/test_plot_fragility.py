@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.plot.incremental_dynamic_analysis import flat_ended
+from rocking.plot.record_surveys import flat_ended
 
 BLOCK = rk.Block(2.0, 0.5)
 

@@ -13,7 +13,7 @@ import rocking as rk
 from rocking.explorer import texts
 from rocking.explorer.ground_motion.size_map import SizePicture
 from rocking.plot import palette
-from rocking.plot.parts.legend import COLOURS, LOOKS, looks
+from rocking.plot.style import COLOURS, LOOKS, looks
 
 # Machado, Oliveira and Fernandes (2009), IEEE Trans. Vis. Comput. Graph. 15: at full severity, on linear RGB.
 SEEN = {

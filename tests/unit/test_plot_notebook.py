@@ -9,7 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import rocking as rk
-from rocking.plot.parts import figures
+from rocking.plot import figures
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 

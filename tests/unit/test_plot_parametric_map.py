@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 import rocking as rk
-from rocking.plot.parts.legend import LOOKS
+from rocking.plot.style import LOOKS
 from rocking.survey import notebook
 
 NUMBERS = {kind: number for number, kind in enumerate(rk.Kind)}
@@ -128,7 +128,7 @@ def test_large_map_is_thinned_evenly_and_its_shares_are_those_of_all_points(size
 
 
 def test_rows_thinned_are_every_nth_of_the_map_however_it_is_read(monkeypatch):
-    monkeypatch.setattr("rocking.plot.parts.map_levels.AT_ONCE", 40 * COUNT)
+    monkeypatch.setattr("rocking.plot.maps.AT_ONCE", 40 * COUNT)
     found = a_map([("rest", 0, 2)] * 5001)
     found["kind"][::3] = NUMBERS["chaotic"]
     drawn = rk.plot.parametric_map(found).images[0].get_array()

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.colors import to_hex
 
 import rocking as rk
-from rocking.plot.parts import style
+from rocking.plot import style
 
 RECORDS = rk.synthetic_ground_motions(3, seed=1, duration=8.0)
 SIZES = np.linspace(0.2, 3.0, 25)

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.patches import Arc
 
 import rocking as rk
-from rocking.plot.parts.film_scene import corners
+from rocking.plot.film import corners
 
 SHAPES = [rk.Block(height=2.0, width=1.0), rk.Block(height=3.0, width=0.75), rk.Block(height=0.2, width=0.15)]
 

@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgb
 
 import rocking as rk
 from rocking.model.text import percent
-from rocking.plot.basins import colours
+from rocking.plot.state_surveys import colours
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
 STARTS = np.linspace(-1, 1, 31)

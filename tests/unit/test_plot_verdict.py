@@ -13,9 +13,9 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 import rocking as rk
-from rocking.plot.parts.figures import picture
-from rocking.plot.parts.legend import COLOURS
-from rocking.plot.verdict import untitled
+from rocking.plot.figures import picture
+from rocking.plot.style import COLOURS
+from rocking.plot.verdicts import untitled
 
 
 def system(amplitude, period, restitution, phase=0.0, braces=None):

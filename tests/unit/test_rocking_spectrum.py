@@ -13,9 +13,9 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.survey.ending_measures import VARIABLES, alike, ending
 from rocking.survey.measurement import batches
-from rocking.survey.measures.ending import VARIABLES, alike, ending
-from rocking.survey.motion_spec import motion_question
+from rocking.survey.spec import motion_question
 from rocking.survey.tiling import finest, levels
 
 GRAVITY = 9.80665

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import zarr
 
-from rocking.survey.store.chunk_files import codecs, encoded
+from rocking.survey.zarr_files import codecs, encoded
 
 EDGES = (40, 30)
 

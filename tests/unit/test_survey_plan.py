@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from rocking.survey.engine.cost import Cost, duration
+from rocking.survey.run_survey import Cost, duration
 from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import COARSEST, MAX_IN_A_TILE, levels, tile_edges
 

@@ -9,8 +9,8 @@ import numpy as np
 import rocking as rk
 from rocking.model.progress import Bar
 from rocking.model.text import percent
-from rocking.survey.engine import cost
-from rocking.survey.engine.progress import count_when_done
+from rocking.survey import run_survey
+from rocking.survey.run_survey import count_when_done
 
 ASKED = {
     "amplitude": np.linspace(0.0, 16.0, 80),
@@ -49,7 +49,7 @@ def test_log_holds_nothing_about_a_short_survey(capsys):
 
 
 def test_sample_that_takes_too_long_gives_a_lower_bound(terminal, monkeypatch):
-    monkeypatch.setattr(cost, "MAX_SECONDS", 0.0)
+    monkeypatch.setattr(run_survey, "MAX_SECONDS", 0.0)
     asked = ASKED | {"restitution": 1.0, "max_cycles": 10_000}
     rk.parametric_map(**asked, progress=True)
     title, _ = terminal()

@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.survey.harmonic_spec import SYSTEM
-from rocking.survey.sampling.perturbation import perturbed as inputs_off
-from rocking.survey.sampling.perturbation import spread
-from rocking.survey.system_points import points_of
+from rocking.survey.random_points import perturbed as inputs_off
+from rocking.survey.random_points import spread
+from rocking.survey.spec import SYSTEM, points_of
 
 EDGE = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), 0.95)
 

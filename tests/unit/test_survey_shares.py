@@ -5,7 +5,7 @@ import pytest
 
 import rocking as rk
 from rocking.model.share import Share, wilson
-from rocking.survey.sampling.uncertainty_exponent import distances, exponent, perturbed_triples
+from rocking.survey.uncertainty_exponent import distances, exponent, perturbed_triples
 
 Z = 1.959963984540054
 REPEATS = 2_000

@@ -20,13 +20,12 @@ import zarr
 
 import rocking as rk
 from rocking.kernels.batch import METHOD
-from rocking.survey.engine import tile_loop
-from rocking.survey.store import store
-from rocking.survey.store.chunk_files import Files
-from rocking.survey.store.layout import check_same
-from rocking.survey.store.locking import ROOT
-from rocking.survey.store.locking import lock as lock_of_store
-from rocking.survey.store.memory import memory_size
+from rocking.survey import run_survey, zarr_store
+from rocking.survey.memory import memory_size
+from rocking.survey.store_access import ROOT
+from rocking.survey.store_access import lock as lock_of_store
+from rocking.survey.store_layout import check_same
+from rocking.survey.zarr_files import Files
 
 SIZE = 130
 ASKED = {
@@ -61,9 +60,9 @@ def copied(made, tmp_path):
 def computed(monkeypatch):
     """Points computed from here on."""
     count = []
-    compute = tile_loop.compute
+    compute = run_survey.compute
     monkeypatch.setattr(
-        tile_loop, "compute", lambda batch, stop: count.append(batch.wanted.size) or compute(batch, stop)
+        run_survey, "compute", lambda batch, stop: count.append(batch.wanted.size) or compute(batch, stop)
     )
     return lambda: sum(count)
 
@@ -228,7 +227,7 @@ MOVES = {
 def test_store_that_is_moved_or_deleted_during_the_run_ends_it_and_nothing_is_written_in_its_place(
     tmp_path, monkeypatch, how, tiles
 ):
-    folder, write, left = tmp_path / "map.zarr", store.Store.write, [tiles]
+    folder, write, left = tmp_path / "map.zarr", zarr_store.Store.write, [tiles]
 
     def moving(kept, tile, answers):
         write(kept, tile, answers)
@@ -236,7 +235,7 @@ def test_store_that_is_moved_or_deleted_during_the_run_ends_it_and_nothing_is_wr
         if left[0] == 0:
             MOVES[how](folder)
 
-    monkeypatch.setattr(store.Store, "write", moving)
+    monkeypatch.setattr(zarr_store.Store, "write", moving)
     message = (
         f"store {str(folder)!r} was moved, deleted or replaced during the run, which writes nothing more "
         "(run again with the folder in its place, or with another one)"
@@ -251,15 +250,15 @@ def test_store_that_is_moved_or_deleted_during_the_run_ends_it_and_nothing_is_wr
 
 
 def test_file_that_is_lost_during_the_run_ends_it(copied, monkeypatch):
-    monkeypatch.setattr(store, "MAX_HELD", 0)
+    monkeypatch.setattr(zarr_store, "MAX_HELD", 0)
     longer = ASKED | {"amplitude": np.linspace(0.0, 16.0, 2 * SIZE - 1)}
-    run = tile_loop.run
+    run = run_survey.run
 
     def losing(*arguments):
         (copied / "level-2/peak/c/0/0").unlink()
         run(*arguments)
 
-    monkeypatch.setattr("rocking.survey.engine.run_survey.run", losing)
+    monkeypatch.setattr("rocking.survey.run_survey.run", losing)
     with pytest.raises(OSError, match="lost files during the run \\(run again to recompute them\\)"):
         rk.parametric_map(**longer, store=copied)
 
@@ -348,7 +347,7 @@ def test_who_interrupts_the_reading_of_a_store_is_told_that_it_is_complete(tmp_p
     def interrupt(_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(store.Store, "dataset", interrupt)
+    monkeypatch.setattr(zarr_store.Store, "dataset", interrupt)
     with pytest.raises(KeyboardInterrupt) as caught:
         rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
     told = f"The survey is complete in {str(tmp_path / 'map.zarr')!r}; run it again to read the results."
@@ -639,7 +638,7 @@ def test_limit_of_the_memory_of_the_process_counts(monkeypatch):
 
 def test_limit_of_the_memory_of_a_container_counts(tmp_path, monkeypatch):
     limits = [tmp_path / name for name in ("memory.max", "memory.limit_in_bytes", "missing")]
-    monkeypatch.setattr("rocking.survey.store.memory.LIMITS", limits)
+    monkeypatch.setattr("rocking.survey.memory.LIMITS", limits)
     for first, second in (("400000000\n", "9223372036854771712\n"), ("max\n", "400000000\n")):
         limits[0].write_text(first)
         limits[1].write_text(second)

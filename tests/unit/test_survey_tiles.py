@@ -6,16 +6,13 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.survey import measurement
-from rocking.survey.harmonic_spec import HarmonicSpec
+from rocking.survey import attractors, ending_measures, measurement, verdict_measures
+from rocking.survey.attractors import classify_with_anchor
 from rocking.survey.measurement import Batch, batches, compute
-from rocking.survey.measures import attractors, ending, kind, pulse_ending
-from rocking.survey.measures.attractors import classify_with_anchor
-from rocking.survey.measures.response import classify_points, response
-from rocking.survey.motion_spec import motion_question
-from rocking.survey.pulse_spec import pulse_question
-from rocking.survey.repeatability_map import judge as judge_repeatedly
+from rocking.survey.repeatability import judge as judge_repeatedly
+from rocking.survey.spec import HarmonicSpec, motion_question, pulse_question
 from rocking.survey.tiling import levels
+from rocking.survey.verdict_measures import classify_points, response
 
 MEASURE = response(200, 64, "A map")
 AXES = {"amplitude": np.linspace(0.0, 16.0, 24), "period": np.linspace(0.2, 3.0, 24)}
@@ -72,11 +69,11 @@ MOTIONS = motion_question(
 EMPTY = {
     "map": (response(100, 8, "A map"), HARMONIC),
     "basins": (attractors.destination(100, 8, "Basins"), HARMONIC),
-    "kinds": (kind.outcome(100, 8, "Kinds"), HARMONIC),
-    "ground motions": (ending.ending("Endings"), MOTIONS),
+    "kinds": (verdict_measures.outcome(100, 8, "Kinds"), HARMONIC),
+    "ground motions": (ending_measures.ending("Endings"), MOTIONS),
     **{
         name: (
-            pulse_ending.pulse_ending("Pulses"),
+            ending_measures.pulse_ending("Pulses"),
             pulse_question(name, AXES["amplitude"], AXES["period"], 0.9).inputs(
                 {"amplitude": NONE, "frequency": NONE}
             ),

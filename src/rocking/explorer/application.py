@@ -22,8 +22,7 @@ from rocking.model.package import VERSION
 from rocking.model.system import System
 from rocking.model.verdict import Criterion
 from rocking.motion.simulate import simulate
-from rocking.plot import palette
-from rocking.plot.parts import legend
+from rocking.plot import palette, style
 
 GROUND_ADDRESS = "/ground-motion"
 FIELDS = (
@@ -116,8 +115,8 @@ def _text(name: str) -> str:
 def _page() -> dict[str, object]:
     """Return the variables of the page template, equal for all sessions."""
     given = {
-        "looks": [look.name for look in legend.LOOKS],
-        "colours": [look.colour for look in legend.LOOKS],
+        "looks": [look.name for look in style.LOOKS],
+        "colours": [look.colour for look in style.LOOKS],
         "grounds": [each.brief for each in Criterion],
         "levels": [each.level for each in Criterion],
     }

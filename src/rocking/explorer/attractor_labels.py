@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rocking.survey.measures.attractors import alike
+from rocking.survey.attractors import alike
 
 MAX_ATTRACTORS = 16
 """Maximum number of distinct orbits per category; a longer list is of no use as a legend."""

@@ -12,10 +12,10 @@ from bokeh.models.tickers import BasicTicker
 from bokeh.plotting import figure
 
 from rocking.explorer.progressive_map import SHADES
+from rocking.plot import style
 from rocking.plot.palette import SELECTED
-from rocking.plot.parts import legend, style
 
-SHADED = [look.shade(number) for number in range(SHADES) for look in legend.LOOKS]
+SHADED = [look.shade(number) for number in range(SHADES) for look in style.LOOKS]
 PALETTE = [*SHADED, style.INK, "#00000000"]
 """Palette of a map, indexed by `Picture.colours`: shades of all categories, stripe of a hatch, transparent."""
 FONT = "11px"

@@ -18,8 +18,7 @@ from rocking.model.verdict import Outcome, Verdict
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
 from rocking.orbits.orbit_diagram import orbit_diagram
-from rocking.plot.parts import sample_times as instants
-from rocking.plot.parts import style
+from rocking.plot import motions, style
 from rocking.response.classify import classify
 from rocking.response.spectrum import spectral_density
 
@@ -134,9 +133,9 @@ def traces(shown: ViewState) -> Traces:
         plain = (0.0, 1.0, -1.0, 1.0)
         return Traces(nothing, nothing, empty, {"history": plain, "portrait": plain})
     start, stop = _shown_of(motion)
-    trace = np.array(instants.trace(motion, start, stop))
+    trace = np.array(motions.trace(motion, start, stop))
     time, angle, velocity = trace[:, np.abs(trace[1]) <= FARTHEST]
-    events = instants.inside(motion.events, start, stop)
+    events = motions.inside(motion.events, start, stop)
     hits = events[np.isin(events["kind"], ("impact", "brace"))]
     colours = np.where(hits["kind"] == "brace", style.BRACE, style.IMPACT)
     time = time + begin
@@ -174,8 +173,8 @@ def _is_start(state: State) -> bool:
 
 def _shown_of(motion: Motion) -> tuple[float, float]:
     if motion.outcome is Outcome.AT_REST:
-        return 0.0, instants.settled(motion)
-    return instants.window(motion, None)
+        return 0.0, motions.settled(motion)
+    return motions.window(motion, None)
 
 
 def _around(values: np.ndarray) -> tuple[float, float]:

@@ -25,7 +25,7 @@ from rocking.model.block import Block
 from rocking.model.forcing import MAX_AMPLITUDE, MAX_PHASE, PERIODS
 from rocking.model.system import BRACE_ANGLES, CRITICAL_ANGLES, MAX_START, check_below_flat, check_start
 from rocking.model.validation import Refusal
-from rocking.plot.parts import theory_curves
+from rocking.plot import theory_curves
 
 SAME = 1e-3
 """Largest relative difference at which a typed critical angle counts as that of the block in SI units."""

@@ -12,7 +12,7 @@ from attrs import frozen
 from rocking.explorer.progressive_map import Picture
 from rocking.explorer.view_state import Span, ViewState, closest
 from rocking.model.block import Block
-from rocking.plot.parts import theory_curves
+from rocking.plot import theory_curves
 
 DEEP = 1e-6
 """Relative length of a range below which an axis shows differences from an offset, to avoid rounding in the browser."""

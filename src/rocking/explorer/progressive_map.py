@@ -14,9 +14,9 @@ from rocking.explorer.attractor_labels import Orbits
 from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
 from rocking.model.verdict import Kind
-from rocking.plot.parts import legend
-from rocking.survey.measures.attractors import classify_with_anchor
-from rocking.survey.measures.response import classify_points
+from rocking.plot import style
+from rocking.survey.attractors import classify_with_anchor
+from rocking.survey.verdict_measures import classify_points
 
 PERIOD = 64
 """Largest response period that is sought, in forcing cycles."""
@@ -50,7 +50,7 @@ STRIPES, STRIPE = 7, 2
 """Spacing and width of the stripes of a hatch, in points."""
 SHADES = 3
 """Shades per category; the orbits of a category use them in turn."""
-PLAIN = SHADES * len(legend.LOOKS)
+PLAIN = SHADES * len(style.LOOKS)
 """Number of shades of all categories."""
 HATCH, NOTHING = PLAIN, PLAIN + 1
 """Palette indices after the shades: stripe of a hatch, transparent."""
@@ -134,12 +134,12 @@ class Picture:
     def _drawn(self) -> np.ndarray:
         """Return the indices of the shades; `PLAIN` for an invalid initial state."""
         shade = self.fields["orbit"] % SHADES
-        return np.where(self.look == legend.NONE, PLAIN, self.look + len(legend.LOOKS) * shade)
+        return np.where(self.look == style.NONE, PLAIN, self.look + len(style.LOOKS) * shade)
 
 
 def _colours() -> np.ndarray:
     """Return the palette indices of all shades and of `PLAIN`: between the stripes (row 0) and on them (row 1)."""
-    hatched = [look.hatch is not None for look in legend.LOOKS] * SHADES + [False]
+    hatched = [look.hatch is not None for look in style.LOOKS] * SHADES + [False]
     plain = np.append(np.arange(PLAIN), NOTHING)
     return np.array([plain, np.where(hatched, HATCH, plain)], np.uint8)
 
@@ -169,7 +169,7 @@ class Refinement:
         values = plane.values(np.arange(plane.points**2))
         angles = np.abs(values.get("angle", np.zeros(1)))
         self.inside = np.broadcast_to(angles <= plane.reach, plane.points**2).reshape(shape)
-        self.fields["look"][~self.inside] = legend.NONE
+        self.fields["look"][~self.inside] = style.NONE
         self.known = ~self.inside
 
     def coarse(self) -> Picture:
@@ -242,7 +242,7 @@ class Refinement:
         return answers
 
     def _keep(self, places: np.ndarray, answers: dict[str, np.ndarray]) -> None:
-        look = legend.looks(answers["kind"], answers["response_period"], answers["symmetric"])
+        look = style.looks(answers["kind"], answers["response_period"], answers["symmetric"])
         answers["look"] = look
         if self.plane.with_attractors:
             states = np.column_stack([answers["orbit_angle"], answers["orbit_velocity"]])

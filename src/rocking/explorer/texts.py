@@ -17,7 +17,7 @@ from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import Harmonic
 from rocking.model.text import counted, percent
 from rocking.model.verdict import Kind, Verdict
-from rocking.plot.parts import legend as looks
+from rocking.plot import style
 
 Facts = list[tuple[str, str]]
 
@@ -44,7 +44,7 @@ def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
     facts.append(("simulated", counted(found.cycles, "cycle")))
     return {
         "kind": str(found.kind),
-        "colour": looks.look_of(found).colour,
+        "colour": style.look_of(found).colour,
         "facts": facts,
         "evidence": str(found.evidence),
     }
@@ -98,7 +98,7 @@ def legend(counts: np.ndarray) -> list[dict[str, str]]:
     total = max(int(counts.sum()), 1)
     return [
         _entry(look.name, look.colour, look, count / total)
-        for look, count in zip(looks.LOOKS, counts.tolist(), strict=True)
+        for look, count in zip(style.LOOKS, counts.tolist(), strict=True)
     ]
 
 
@@ -109,16 +109,16 @@ def attractors(counts: np.ndarray) -> list[dict[str, str]]:
     """
     total, entries = max(int(counts.sum()), 1), []
     for place in np.argsort(-counts.sum(axis=0), kind="stable").tolist():
-        name, look = looks.LOOKS[place].name, looks.LOOKS[place]
+        name, look = style.LOOKS[place].name, style.LOOKS[place]
         for shade in np.argsort(-counts[:, place], kind="stable").tolist():
             if counts[shade, place] >= MIN_SHARE * total:
-                colour = SHADED[shade * len(looks.LOOKS) + place]
+                colour = SHADED[shade * len(style.LOOKS) + place]
                 entries.append(_entry(name, colour, look, counts[shade, place] / total))
                 name = "another orbit"
     return entries
 
 
-def _entry(name: str, colour: str, look: looks.Look, share: float) -> dict[str, str]:
+def _entry(name: str, colour: str, look: style.Look, share: float) -> dict[str, str]:
     return {
         "name": name,
         "colour": colour,

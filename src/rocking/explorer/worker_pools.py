@@ -10,7 +10,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from rocking.survey.engine.tile_loop import cores
+from rocking.survey.run_survey import cores
 
 Value = TypeVar("Value")
 LOG = logging.getLogger(__name__)

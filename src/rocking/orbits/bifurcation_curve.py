@@ -13,11 +13,10 @@ from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
 from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
 from rocking.model.validation import Refusal, instance, one_of, pair, whole
-from rocking.orbits.branch import SpecialPoint, chain_at
-from rocking.orbits.branch_result import ENDS
+from rocking.orbits.branch import ENDS, SpecialPoint, chain_at
 from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of
 from rocking.orbits.curve_ends import until_parent
-from rocking.orbits.curve_rows import CurveRows
+from rocking.orbits.curve_zeros import CurveRows
 from rocking.orbits.datasets import of_curve
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.grazing import touches_again

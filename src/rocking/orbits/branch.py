@@ -1,24 +1,127 @@
-"""Branches of periodic orbits, and their special points."""
+"""Branches of periodic orbits: their tables and rows, their special points, and their halves."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
+from rocking.kernels.orbits import continuation as kernel
 from rocking.model.forcing import MAX_PHASE
-from rocking.model.orbit import Orbit, Stability
+from rocking.model.orbit import Orbit, Stability, stability_of
 from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
 from rocking.model.validation import WrongType, whole, within
-from rocking.orbits.branch_rows import BranchRows
 from rocking.orbits.datasets import of_branch
-from rocking.orbits.event_chain import Chain
-from rocking.orbits.grazing import Touch
+from rocking.orbits.event_chain import (
+    Chain,
+    End,
+    Special,
+    equations,
+    multipliers_of,
+    orbit_of,
+    sides_of,
+    solved,
+    states,
+)
+from rocking.orbits.grazing import Touch, grazing_at
+from rocking.orbits.parent_branch import special_points
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+class BranchRows(Protocol):
+    """Points of a branch in the unknowns of its equations."""
+
+    def orbit(self, index: int) -> Orbit:
+        """Return the orbit of a point."""
+
+    def between(self, index: int, share: float, value: float) -> Orbit | None:
+        """Return the orbit at a value of the parameter near the point a share of the way to the next one, if there is one."""
+
+    def section(self, phase: float) -> np.ndarray:
+        """Return Θ and Θ' of all orbits at a forcing phase in the cycles of a period, shape (points, period, 2)."""
+
+
+class ChainRows(NamedTuple):
+    """Points of a branch of slender blocks: phases of the events of each orbit, and the parameter."""
+
+    chain: Chain
+    name: str
+    rows: np.ndarray
+    facts: np.ndarray
+
+    def orbit(self, index: int) -> Orbit:
+        """Return the orbit of a point."""
+        facts = self.facts[index]
+        return orbit_of(self.chain, self.name, self.rows[index], facts["trace"], facts["determinant"])
+
+    def between(self, index: int, share: float, value: float) -> Orbit | None:
+        """Return the orbit at a value of the parameter near the point a share of the way to the next one, if there is one."""
+        near = self.rows[index]
+        if share:
+            near = near + share * (self.rows[index + 1] - near)
+        there = solved(self.chain, self.name, value, near)
+        if not there.found:
+            # a grazing end, where a motion may touch or not, is known although it is not found again
+            return None if share else self.orbit(index)
+        return orbit_of(self.chain, self.name, there.phases, there.trace, there.determinant)
+
+    def section(self, phase: float) -> np.ndarray:
+        """Return Θ and Θ' of all orbits at a forcing phase in the cycles of a period, shape (points, period, 2)."""
+        return states(self.chain, self.name, self.rows, phase, self.chain.period)
+
+
+POINT = np.dtype(
+    [
+        ("parameter", float),
+        ("phase", float),
+        ("velocity", float),
+        ("multipliers", complex, 2),
+        ("stable", bool),
+        ("stability", "U8"),
+        ("peak", float),
+    ]
+)
+
+
+def table(rows: np.ndarray, facts: np.ndarray, mirrored: bool) -> NDArray[np.void]:
+    """Return the public table of a branch."""
+    points = np.empty(len(rows), POINT)
+    points["parameter"] = rows[:, -1]
+    points["phase"] = np.mod(rows[:, 0], math.tau)
+    points["velocity"] = facts["velocity"]
+    traces = facts[["trace", "determinant"]].tolist()
+    points["multipliers"] = [multipliers_of(trace, determinant, mirrored) for trace, determinant in traces]
+    points["stability"] = [stability_of(trace, determinant) for trace, determinant in traces]
+    points["stable"] = points["stability"] == Stability.STABLE
+    points["peak"] = facts["peak"]
+    points.flags.writeable = False
+    return points
+
+
+Point = TypeVar("Point")
+
+
+class Half(NamedTuple, Generic[Point]):
+    """Branch in one direction from its first point."""
+
+    points: list[Point]
+    specials: list[tuple[str, Point, int]]  # kind, point, and index of the point after it
+    end: str
+
+
+def joined(back: Half[Point], on: Half[Point]) -> tuple[tuple[Point, ...], list[tuple[str, Point, int]]]:
+    """Return the points of a branch in order, and its special points with their indices there."""
+    last = len(back.points) - 1
+    specials = [(kind, point, last + 1 - index) for kind, point, index in reversed(back.specials)]
+    specials += [(kind, point, last + index) for kind, point, index in on.specials]
+    return (*reversed(back.points), *on.points[1:]), specials
+
 
 # End of a branch at the special point from which ``switch_branch`` follows it.
 BRANCHES_OFF = "branches off at a special point"
@@ -309,3 +412,116 @@ class Branch(ReadOnlyArrays, NotebookPicture):
 def _extent(low: str, high: str) -> str:
     """Return a range of values in words; with six digits it may be a single value."""
     return f"at {low}" if low == high else f"from {low} to {high}"
+
+
+# Largest relative difference of the parameter, and of a phase in rad, between two passages of one special point.
+SAME_PARAMETER, SAME_PHASE = 1e-9, 1e-5
+
+
+def distinct(points: Iterable[SpecialPoint]) -> tuple[SpecialPoint, ...]:
+    """Return the special points of a branch, each at its first passage."""
+    found: list[SpecialPoint] = []
+    for point in points:
+        if not any(_same(point, other) for other in found):
+            found.append(point)
+    return tuple(found)
+
+
+def _same(one: SpecialPoint, other: SpecialPoint) -> bool:
+    """Return whether two special points of a branch have the same orbit, some cycles later, or mirror images of each other."""
+    if one.kind != other.kind or one._chain is None or other._chain is None:
+        return False
+    # a branch may lie on both sides of a grazing
+    if one.kind == "grazing" and one._origin != other._origin:
+        return False
+    if not abs(one.parameter - other.parameter) <= SAME_PARAMETER * abs(one.parameter):
+        return False
+    if (one.orbit.period, one.orbit.symmetric) != (other.orbit.period, other.orbit.symmetric):
+        return False
+    first, second = _events(one._chain, one._row[:-1]), _events(other._chain, other._row[:-1])
+    return first.shape == second.shape and any(
+        _agree(first, second, half_turns, math.tau * one.orbit.period)
+        for half_turns in range(2 * one.orbit.period)
+    )
+
+
+def _events(chain: Chain, phases: np.ndarray) -> np.ndarray:
+    """Return phase, kind and side after each event of a whole period."""
+    events = np.stack([phases, chain.kinds, sides_of(chain)], axis=1)
+    if not chain.mirrored:
+        return events
+    later = events * [1.0, 1.0, -1.0] + [chain.turn, 0.0, 0.0]
+    return np.concatenate([events, later])
+
+
+def _agree(first: np.ndarray, second: np.ndarray, half_turns: int, whole: float) -> bool:
+    """Return whether the events of two orbits agree if the second begins some half turns later, mirrored if their number is odd."""
+    moved = second * [1.0, 1.0, (-1.0) ** half_turns] + [math.pi * half_turns, 0.0, 0.0]
+    apart = (moved[None, :, 0] - first[:, None, 0] + 0.5 * whole) % whole - 0.5 * whole
+    same = (np.abs(apart) <= SAME_PHASE) & (moved[None, :, 1:] == first[:, None, 1:]).all(axis=2)
+    return bool(same.any(axis=1).all() and same.any(axis=0).all())
+
+
+KINDS = {
+    Special.FOLD: "fold",
+    Special.SYMMETRY_BREAKING: "symmetry-breaking",
+    Special.PERIOD_DOUBLING: "period-doubling",
+    Special.GRAZING: "grazing",
+}
+ENDS = {
+    End.RANGE: "end of the range",
+    End.GRAZED: "grazing",
+    End.MERGED: "merges with the branch from which it bifurcates",
+    End.CLOSED: "closed loop",
+    End.MANY: "maximum number of points",
+    End.LOST: "lost: no further point was found with the smallest step",
+}
+
+
+def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tuple[str, str]) -> Branch:
+    """Return the public value of a branch."""
+    impacts, brace_hits = chain.counts()
+    passed = tuple(
+        special_of(one.chain, parameter, one.row, one.kind, one.place, _beside(joined.rows, one.place))
+        for one in special_points(chain, parameter, joined)
+    )
+    return Branch(
+        name=parameter,
+        period=chain.period,
+        symmetric=chain.mirrored,
+        impacts=impacts,
+        brace_hits=brace_hits,
+        points=table(joined.rows, joined.facts, chain.mirrored),
+        special=distinct(passed),
+        ends=ends,
+        rows=ChainRows(chain, parameter, joined.rows, joined.facts),
+        passed=passed,
+    )
+
+
+def _beside(rows: np.ndarray, index: int) -> float:
+    """Return the parameter of a point of a branch near a special point, but not at its end."""
+    return float(rows[min(max(index, 1), max(len(rows) - 2, 0)), -1])
+
+
+def special_of(
+    chain: Chain, parameter: str, row: np.ndarray, kind: Special, index: int, beside: float
+) -> SpecialPoint:
+    """Return a special point with its orbit; ``beside`` is the parameter of a point of its branch near it."""
+    touch, counts = None, chain.counts()
+    if kind == Special.GRAZING:
+        orbit, chain, row, touch = grazing_at(chain, parameter, row)
+    else:
+        *_, trace, determinant = equations(chain, parameter, row)
+        orbit = orbit_of(chain, parameter, row, trace, determinant)
+    return SpecialPoint(
+        kind=KINDS[kind],
+        parameter=float(row[-1]),
+        orbit=orbit,
+        name=parameter,
+        index=index,
+        chain=chain,
+        row=row.copy(),
+        touch=touch,
+        origin=Origin(counts, float(np.sign(beside - row[-1]))),
+    )

@@ -12,11 +12,9 @@ from attrs import field, frozen
 from rocking.model.orbit import Orbit
 from rocking.model.text import plus_minus
 from rocking.orbits import normal_form
-from rocking.orbits.curve_ends import degenerate_end
-from rocking.orbits.curve_rows import CurveRows
-from rocking.orbits.curve_zeros import Test, along, find_brackets, locate_zero
+from rocking.orbits.curve_ends import degenerate_end, grazing_end, multiplier
+from rocking.orbits.curve_zeros import CurveRows, Test, along, find_brackets, locate_zero
 from rocking.orbits.event_chain import End, Special, equations, orbit_of
-from rocking.orbits.grazing_ends import grazing_end, multiplier
 
 ROUNDED = 1e-11
 """Relative error below which a value is printed with ten digits, without the error."""

@@ -9,8 +9,7 @@ import numpy as np
 
 from rocking.model.result import described, named
 from rocking.model.system import quantities
-from rocking.orbits.dataset_attributes import coordinate_of, kinds_of
-from rocking.orbits.parameter import fixed_quantities
+from rocking.orbits.parameter import coordinate_of, fixed_quantities, kinds_of
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -22,10 +22,9 @@ from rocking.model.validation import Refusal, instance, reals, within
 from rocking.model.verdict import Kind, Verdict
 from rocking.motion.simulate import simulate
 from rocking.orbits.branch import SpecialPoint, chain_at
-from rocking.orbits.continuation import switch_branch
+from rocking.orbits.continuation import MEETS, PERSISTS, switch_branch
 from rocking.orbits.datasets import of_transition
 from rocking.orbits.event_chain import clocked
-from rocking.orbits.grazed_branch import MEETS, PERSISTS
 from rocking.orbits.parameter import ALLOWED, with_value
 from rocking.response.classify import budget, classify
 

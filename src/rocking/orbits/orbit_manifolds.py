@@ -20,9 +20,17 @@ from rocking.model.validation import Refusal, instance, within
 from rocking.motion.march_loop import monodromy
 from rocking.orbits.datasets import of_manifolds
 from rocking.orbits.event_chain import clocked
-from rocking.orbits.manifold_growth import MAX_POINTS, grow, pieces, region
-from rocking.orbits.saddle_manifolds import SPACINGS, Manifold
-from rocking.orbits.saddle_orbits import check_reversible, parameters, too_many_impacts
+from rocking.orbits.saddle_manifolds import (
+    MAX_POINTS,
+    SPACINGS,
+    Manifold,
+    check_reversible,
+    grow,
+    parameters,
+    pieces,
+    region,
+    too_many_impacts,
+)
 
 if TYPE_CHECKING:
     import xarray as xr

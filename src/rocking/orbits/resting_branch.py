@@ -24,10 +24,7 @@ from rocking.model.validation import Refusal
 from rocking.model.verdict import Kind
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
-from rocking.orbits.branch import Branch, SpecialPoint
-from rocking.orbits.branch_halves import Half, joined
-from rocking.orbits.branch_result import ENDS
-from rocking.orbits.branch_table import POINT
+from rocking.orbits.branch import ENDS, POINT, Branch, Half, SpecialPoint, joined
 from rocking.orbits.event_chain import End, clocked
 from rocking.orbits.find_orbit import SAME, orbit_from
 from rocking.orbits.parameter import value_of, with_value

@@ -24,52 +24,30 @@ from rocking.orbits.bifurcation_set import BifurcationSet
 from rocking.orbits.branch import Branch
 from rocking.orbits.cascade import Cascade
 from rocking.orbits.find_orbits import Orbits
-from rocking.orbits.frequency_response_result import FrequencyResponse
+from rocking.orbits.frequency_response import FrequencyResponse
 from rocking.orbits.grazing_transition import GrazingTransition
-from rocking.orbits.orbit_diagram_result import OrbitDiagram
+from rocking.orbits.orbit_diagram import OrbitDiagram
 from rocking.orbits.orbit_manifolds import OrbitManifolds
-from rocking.orbits.response_diagram_result import ResponseDiagram
+from rocking.orbits.response_diagram import ResponseDiagram
 from rocking.orbits.saddle_manifolds import SaddleManifolds
 from rocking.plot import palette as palette
-from rocking.plot.animation import animation
-from rocking.plot.basins import basins
-from rocking.plot.bifurcation_curve import bifurcation_curve
-from rocking.plot.bifurcation_set import bifurcation_set
-from rocking.plot.branch import branch
-from rocking.plot.cascade import cascade
-from rocking.plot.chaos_share import chaos_share
-from rocking.plot.convergence import convergence
-from rocking.plot.correlation_dimension import correlation_dimension
-from rocking.plot.fragility import fragility
-from rocking.plot.frequency_response import frequency_response
-from rocking.plot.grazing_transition import grazing_transition
-from rocking.plot.impact_section import impact_section
-from rocking.plot.incremental_dynamic_analysis import incremental_dynamic_analysis
-from rocking.plot.manifolds import manifolds
-from rocking.plot.melnikov import heteroclinic, melnikov
-from rocking.plot.modes import modes
-from rocking.plot.orbit_diagram import orbit_diagram
-from rocking.plot.orbit_manifolds import orbit_manifolds
-from rocking.plot.orbits import orbits
-from rocking.plot.overturning import overturning
-from rocking.plot.overturning_set import overturning_set
-from rocking.plot.overturning_spectrum import overturning_spectrum
-from rocking.plot.overview import overview
-from rocking.plot.parametric_map import parametric_map
-from rocking.plot.parts.figures import picture
-from rocking.plot.parts.save import save
-from rocking.plot.parts.style import panels, title
-from rocking.plot.phase_portrait import phase_portrait
-from rocking.plot.repeatability import repeatability, repeatability_map
-from rocking.plot.response_diagram import response_diagram
-from rocking.plot.rocking_spectrum import rocking_spectrum
-from rocking.plot.safe_basin import safe_basin
-from rocking.plot.schematic import schematic
-from rocking.plot.section import section
-from rocking.plot.spectrum import spectrum
-from rocking.plot.thresholds import thresholds
-from rocking.plot.time_history import time_history
-from rocking.plot.verdict import untitled, verdict
+from rocking.plot.branch_lines import branch, cascade, frequency_response, orbits
+from rocking.plot.curves import bifurcation_curve, bifurcation_set, grazing_transition
+from rocking.plot.figures import picture, save
+from rocking.plot.film import animation, schematic
+from rocking.plot.manifold_lines import manifolds, orbit_manifolds
+from rocking.plot.maps import parametric_map
+from rocking.plot.motions import overview, phase_portrait, time_history
+from rocking.plot.record_surveys import fragility, incremental_dynamic_analysis, overturning_set
+from rocking.plot.rocking_spectra import overturning_spectrum, rocking_spectrum
+from rocking.plot.sections import correlation_dimension, impact_section, section
+from rocking.plot.shares import chaos_share, overturning, repeatability, repeatability_map
+from rocking.plot.spectra import spectrum
+from rocking.plot.state_surveys import basins, safe_basin
+from rocking.plot.style import panels, title
+from rocking.plot.sweeps import orbit_diagram, response_diagram
+from rocking.plot.theory_curves import heteroclinic, melnikov, modes, thresholds
+from rocking.plot.verdicts import convergence, untitled, verdict
 from rocking.plot.zoomable_map import tiles
 from rocking.response.correlation_dimension import CorrelationDimension
 from rocking.response.lyapunov import LyapunovSpectrum

@@ -19,11 +19,10 @@ from rocking.model.block import Block
 from rocking.model.files import TILES, replacing_folder
 from rocking.model.package import VERSION
 from rocking.model.text import percent
-from rocking.plot import palette
-from rocking.plot.parts import style
-from rocking.plot.parts.axis_units import parameter
-from rocking.plot.parts.legend import LOOKS, NONE
-from rocking.plot.parts.map_levels import Responses
+from rocking.plot import palette, style
+from rocking.plot.axes import parameter
+from rocking.plot.maps import Responses
+from rocking.plot.style import LOOKS, NONE
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -14,18 +14,16 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import Fragility
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.validation import Refusal, reals, refuse_if, whole, within
-from rocking.survey.engine.run_survey import run_survey
+from rocking.survey.ending_measures import UNDECIDED, ending
+from rocking.survey.fragility_curve import Fractions, clustered_fractions, fitted, two_level_weights
 from rocking.survey.incremental_dynamic_analysis import block_question, of_block
-from rocking.survey.measures.ending import UNDECIDED, ending
-from rocking.survey.sampling.block_samples import UncertainMotionSpec, block_samples, fingerprints
-from rocking.survey.sampling.clustered_fractions import Fractions, clustered_fractions, two_level_weights
-from rocking.survey.sampling.fragility_curve import fitted
-from rocking.survey.sampling.random_points import MAX_SEED
+from rocking.survey.random_points import MAX_SEED, UncertainMotionSpec, block_samples, fingerprints
+from rocking.survey.run_survey import run_survey
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.survey.motion_spec import MotionSpec
+    from rocking.survey.spec import MotionSpec
 
 TITLE = "Fragility of a free-standing block under ground motions"
 MAX_SPREAD, MAX_BLOCKS, MAX_REPLICATES = 0.5, 10_000, 100_000

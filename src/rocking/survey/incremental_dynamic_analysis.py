@@ -12,10 +12,9 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import IncrementalDynamicAnalysis
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.validation import Refusal, WrongType, instance
-from rocking.survey.engine.run_survey import run_survey
-from rocking.survey.measures.ending import ending
-from rocking.survey.motion_spec import MotionSpec, motion_question
-from rocking.survey.spec import is_axis
+from rocking.survey.ending_measures import ending
+from rocking.survey.run_survey import run_survey
+from rocking.survey.spec import MotionSpec, is_axis, motion_question
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from rocking.model import result
 from rocking.model.text import percent
-from rocking.survey.store.export import counts
+from rocking.survey.export import counts
 
 if TYPE_CHECKING:
     import xarray as xr

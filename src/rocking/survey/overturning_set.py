@@ -17,11 +17,10 @@ from rocking.model.record_results import SWITCH_ROW, OverturningSet, intervals_o
 from rocking.model.record_set import Intensity, RecordSet, intensity_of, record_set
 from rocking.model.system import MODELS, RANGES
 from rocking.model.validation import Refusal, instance, one_of, within
-from rocking.survey.engine.tile_loop import engine
+from rocking.survey.ending_measures import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled
 from rocking.survey.measurement import Arrays
-from rocking.survey.measures.ending import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled
-from rocking.survey.motion_spec import MAX_LEVEL
-from rocking.survey.spec import axis
+from rocking.survey.run_survey import engine
+from rocking.survey.spec import MAX_LEVEL, axis
 
 if TYPE_CHECKING:
     import xarray as xr

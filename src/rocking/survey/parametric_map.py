@@ -6,9 +6,9 @@ import os
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
-from rocking.survey.engine.run_survey import run_survey
-from rocking.survey.harmonic_spec import question
-from rocking.survey.measures.response import response
+from rocking.survey.run_survey import run_survey
+from rocking.survey.spec import question
+from rocking.survey.verdict_measures import response
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -14,17 +14,16 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import Sensitivity
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.validation import Refusal, instance, refuse_if, whole
-from rocking.survey.engine.run_survey import run_survey
+from rocking.survey.ending_measures import OVERTURNED, UNDECIDED, ending
+from rocking.survey.fragility_curve import clustered_fractions, two_level_weights
 from rocking.survey.incremental_dynamic_analysis import block_question, of_block
-from rocking.survey.measures.ending import OVERTURNED, UNDECIDED, ending
-from rocking.survey.sampling.block_samples import fingerprints
-from rocking.survey.sampling.clustered_fractions import clustered_fractions, two_level_weights
-from rocking.survey.sampling.random_points import MAX_SEED
+from rocking.survey.random_points import MAX_SEED, fingerprints
+from rocking.survey.run_survey import run_survey
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.survey.motion_spec import MotionSpec
+    from rocking.survey.spec import MotionSpec
 
 TITLE = "Sensitivity of the verdicts of a free-standing block under ground motions"
 AMPLITUDE, RESTITUTION = 0.01, 0.02

@@ -1,16 +1,36 @@
-"""Specification of a survey: axes of the varying quantities and values of the others."""
+"""Specification of a survey: axes of the varying quantities, values of the others, and the systems or runs at points.
+
+There is one for blocks on a harmonic base, one for blocks under ground motions, and one for blocks under a pulse.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
 from attrs import evolve, field, frozen
 
+from rocking.kernels.forcing import parameters as numbers
+from rocking.model.block import INERTIA_RATIOS, RECTANGLE, SIZES
+from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
+from rocking.model.forcing import KINDS, SINES
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.record_set import Intensity, RecordSet, intensity_of
+from rocking.model.system import (
+    MODELS,
+    NO_BRACES,
+    RANGES,
+    System,
+    check_below_flat,
+    check_between,
+    check_constant_restitution,
+    check_periodic,
+    quantities,
+)
 from rocking.model.text import shown
-from rocking.model.validation import Refusal, Text, WrongType, reals, within
+from rocking.model.validation import Incomplete, Refusal, Text, WrongType, exactly_one, one_of, reals, within
 
 Values = Mapping[str, np.ndarray]
 Spec = TypeVar("Spec", bound="SurveySpec")
@@ -94,3 +114,426 @@ def is_axis(value: Any) -> bool:
     return (isinstance(value, Sequence) and not isinstance(value, str | bytes)) or getattr(
         value, "ndim", 0
     ) > 0
+
+
+SYMBOLS = {
+    "amplitude": ("A", "amplitude of the base acceleration in units of g theta_cr"),
+    "velocity": ("Θ'", "initial angular velocity in units of alpha theta_cr"),
+    "restitution": ("e", "coefficient of restitution"),
+    "brace_angle": ("Θb", "angle of the braces in units of theta_cr"),
+    "brace_restitution": ("r", "coefficient of restitution of the braces"),
+    "phase": ("φ", "phase of the base acceleration"),
+    "angle": ("Θ", "initial angle in units of theta_cr"),
+    "frequency": ("Ω", "forcing frequency in radians per normalised time"),
+    "period": ("T", "forcing period in normalised time"),
+    "critical_angle": ("θcr", "critical angle"),
+}
+
+
+SYSTEM = (
+    "amplitude",
+    "frequency",
+    "period",
+    "phase",
+    "restitution",
+    "brace_angle",
+    "brace_restitution",
+    "critical_angle",
+)
+START = ("angle", "velocity")
+
+
+class Points(NamedTuple):
+    """Systems and initial states of points, as arrays for the kernels."""
+
+    systems: np.ndarray  # (n, 8), SYSTEM, as `kernels.forcing.parameters.parameters_of_row` takes it
+    starts: np.ndarray  # (n, 2), START
+
+    @property
+    def lossless(self) -> np.ndarray:
+        """Mask of the undamped points (e = 1)."""
+        return np.asarray(self.systems[:, SYSTEM.index("restitution")] == 1.0)
+
+
+@frozen(eq=False)
+class HarmonicSpec(SurveySpec):
+    """Survey of systems with a harmonic base motion.
+
+    `brace_angle` and `brace_restitution` are absent without braces; either `period` or `frequency` is present.
+    """
+
+    comment = (
+        "Attributes and coordinates are normalised as in Yim & Lin (1991), Eqs. (1)-(4); "
+        "the base acceleration is amplitude cos(frequency time + phase)."
+    )
+
+    @property
+    def full(self) -> bool:
+        """True if the blocks follow the full equation of motion."""
+        return "critical_angle" in self.axes or "critical_angle" in self.fixed
+
+    def inputs(self, values: Values) -> Points:
+        """Return the systems and initial states of n points."""
+        return points(values, self.fixed)
+
+    def described(self) -> dict[str, Any]:
+        """Return the quantities that do not vary, by name, in the order of the dataset attributes."""
+        return {name: self.fixed[name] for name in RANGES if name in self.fixed}
+
+    def coordinate(self, name: str) -> dict[str, str]:
+        """Return the attributes of a coordinate."""
+        return coordinate(name)
+
+
+def coordinate(name: str) -> dict[str, str]:
+    """Return the attributes of a coordinate."""
+    symbol, long_name = SYMBOLS[name]
+    return {
+        "long_name": long_name,
+        "symbol": symbol,
+        "units": "rad" if name in ("phase", "critical_angle") else "1",
+    }
+
+
+def question(asked: Mapping[str, Any], count: int, what: str) -> HarmonicSpec:
+    """Check the quantities of a survey: `count` of them are arrays, the axes, and the others are numbers or None.
+
+    `what` names the survey in messages.
+
+    Raises
+    ------
+    TypeError
+        If a quantity is missing or has the wrong type, or if the number of axes is not `count`.
+    ValueError
+        If a value lies outside its range.
+    """
+    exactly_one(period=asked.get("period"), frequency=asked.get("frequency"))
+    given = {name: asked[name] for name in RANGES if asked.get(name) is not None}
+    missing = [name for name in ("amplitude", "restitution") if name not in given]
+    if missing:
+        raise Incomplete(what, " and ".join(f"{{{name}}}" for name in missing), Text("none"))
+    rebound = 1.0 if "brace_angle" in given else given.pop("brace_restitution", 1.0)
+    if is_axis(rebound) or rebound != 1.0:
+        raise WrongType("brace_restitution", "be used with {brace_angle}", rebound)
+    checked = {name: check_quantity(name, value) for name, value in given.items()}
+    axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
+    fixed = {name: value for name, value in checked.items() if not isinstance(value, np.ndarray)}
+    if len(axes) != count:
+        names, more = [f"{{{name}}}" for name in axes or given], len(axes) - count
+        got = " and ".join(names) if axes else f"none of {', '.join(names)}"
+        remedy = f"give {'one' if more == 1 else more} of them as a number" if more > 0 else ""
+        raise Incomplete(what, _counted(count), Text(got), remedy)
+    asked_for = HarmonicSpec(axes, fixed)
+    _check_braces(asked_for)
+    return asked_for
+
+
+def check_quantity(name: str, value: Any) -> float | np.ndarray:
+    """Check a number or an axis of one quantity."""
+    return number_or_axis(name, value, RANGES[name])
+
+
+def _counted(count: int) -> str:
+    words = {1: "one quantity as an array", 2: "two quantities as arrays"}
+    return words.get(count, f"{count} quantities as arrays")
+
+
+def _check_braces(asked: HarmonicSpec) -> None:
+    """Raise ValueError for initial angles beyond the braces, or for braces at which a block lies flat."""
+    if "brace_angle" not in asked.axes and "brace_angle" not in asked.fixed:
+        return
+    if asked.full:
+        check_below_flat(max(_values(asked, "brace_angle")), max(_values(asked, "critical_angle")))
+    check_between(max(_values(asked, "angle"), key=abs), min(_values(asked, "brace_angle")))
+
+
+def _values(asked: HarmonicSpec, name: str) -> list[float]:
+    return asked.axes[name].tolist() if name in asked.axes else [asked.fixed.get(name, 0.0)]
+
+
+def points(values: Values, fixed: Mapping[str, float]) -> Points:
+    """Return the systems and initial states of n points, with the same rounding as `System` and `State`.
+
+    Each of the `values` has the shape (n,).
+    """
+    count = next(iter(values.values())).size
+    usual = {"phase": 0.0, **NO_BRACES, "critical_angle": 0.0, "angle": 0.0, "velocity": 0.0}
+    constants = usual | dict(fixed)
+    given = {name: np.broadcast_to(value, count) for name, value in constants.items()} | dict(values)
+    if "frequency" in given:
+        given["period"] = math.tau / given["frequency"]
+    else:
+        given["frequency"] = math.tau / given["period"]
+    given["phase"] = _within_a_turn(given["phase"])
+    return Points(
+        np.stack([given[name] for name in SYSTEM], axis=1), np.stack([given[name] for name in START], axis=1)
+    )
+
+
+def _within_a_turn(phases: np.ndarray) -> np.ndarray:
+    if np.abs(phases).max(initial=0.0) <= math.pi:
+        return phases
+    distinct, places = np.unique(phases, return_inverse=True)
+    return np.array([numbers.within_a_turn(phase) for phase in distinct.tolist()])[places]
+
+
+MAX_LEVEL = 1e6
+SLENDERNESSES = 1e-4, 1.57
+"""Range of the critical angle, rad."""
+RUN_QUANTITIES: dict[str, tuple[str, str, str, tuple[float, float]]] = {
+    "size": ("R", "distance from a corner to the centre of mass", "m", SIZES),
+    "slenderness": ("θcr", "critical angle", "rad", SLENDERNESSES),
+    "restitution": ("e", "coefficient of restitution", "1", RANGES["restitution"]),
+    "angle": ("Θ", "initial angle in units of theta_cr", "1", RANGES["angle"]),
+    "polarity": ("±", "direction of the ground motion", "1", (-1.0, 1.0)),
+    "scale": ("s", "factor of the ground motion", "1", (1e-9, MAX_LEVEL)),
+}
+"""Symbol, description, unit and range of each quantity, in the order of the dimensions; records come first."""
+
+
+class Runs(NamedTuple):
+    """Runs at n points, each an array (n,), and the motions by their number."""
+
+    motions: Mapping[int, GroundMotion]
+    record: np.ndarray
+    frequency_parameter: np.ndarray  # α, 1/s
+    factor: np.ndarray  # of the motion, in 1/(g θcr): what makes it a normalised base acceleration
+    restitution: np.ndarray
+    angle: np.ndarray
+    slenderness: np.ndarray
+    full: bool  # whether the blocks follow the full equation of motion
+
+
+@frozen(eq=False)
+class MotionSpec(SurveySpec):
+    """Survey of blocks under ground motions.
+
+    The axis `record` holds the numbers of the records. Without `restitution`, it is Housner's. `scale` is a level of the
+    intensity measure.
+    """
+
+    comment = "A peak is in units of the critical angle; impacts of chattering sequences do not count."
+    contiguous = True
+
+    motions: dict[int, GroundMotion] = field(factory=dict)
+    intensities: dict[int, float] = field(factory=dict)
+    measure: Intensity = field(kw_only=True)
+    digest: str = field(kw_only=True)
+    model: str = field(kw_only=True)
+
+    @property
+    def full(self) -> bool:
+        """Flag: the blocks follow the full equation of motion."""
+        return self.model == "full"
+
+    def with_axes(self, axes: dict[str, np.ndarray]) -> MotionSpec:
+        """Return the survey over other axes of the same names, with the motions of these axes alone."""
+        numbers = axes["record"].astype(int).tolist() if "record" in axes else list(self.motions)
+        return evolve(
+            self,
+            axes=axes,
+            motions={number: self.motions[number] for number in numbers},
+            intensities={number: self.intensities[number] for number in numbers},
+        )
+
+    def inputs(self, values: Values) -> Runs:
+        """Return the runs at n points."""
+        count = next(iter(values.values())).size
+        given = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
+        record = np.asarray(given["record"], dtype=np.int64)
+        ratio, slenderness = self.fixed["inertia_ratio"], given["slenderness"]
+        alpha = _each(frequency_parameter, given["size"], ratio)
+        restitution = given.get("restitution")
+        if restitution is None:
+            restitution = _each(housner_restitution, slenderness, ratio)
+        own = np.array([self.intensities[number] for number in record.tolist()])
+        factor = self.measure.factor(given["scale"], own, alpha, slenderness)
+        return Runs(
+            self.motions,
+            record,
+            alpha,
+            factor * given["polarity"] / (GRAVITY * slenderness),
+            restitution,
+            given["angle"],
+            slenderness,
+            self.full,
+        )
+
+    def described(self) -> dict[str, Any]:
+        """Return the quantities that do not vary, by name, and the digest of the records."""
+        fixed = {name: self.fixed[name] for name in (*RUN_QUANTITIES, "inertia_ratio") if name in self.fixed}
+        return fixed | {"model": self.model, "intensity": self.measure.name, "records_sha256": self.digest}
+
+    def coordinate(self, name: str) -> dict[str, str]:
+        """Return the attributes of a coordinate."""
+        if name == "record":
+            return {"long_name": "number of the record, from 0"}
+        symbol, long_name, unit, _ = RUN_QUANTITIES[name]
+        if name == "scale":
+            symbol, long_name, unit = self.measure.symbol, self.measure.long_name, self.measure.unit
+        return {"long_name": long_name, "symbol": symbol, "units": unit}
+
+
+def motion_question(
+    records: RecordSet,
+    given: Mapping[str, Any],
+    *,
+    intensity: str,
+    model: str = "slender",
+    inertia_ratio: float = RECTANGLE,
+    one_run: bool = False,
+) -> MotionSpec:
+    """Check the quantities of a survey of ground motions: arrays are axes, and the others are numbers or None.
+
+    With ``one_run``, nothing needs to vary.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a quantity is missing, of the wrong type or outside its range, or if none varies. Also if a block is too squat for
+        Housner's restitution.
+    """
+    model = one_of("model", model, MODELS)
+    spans = {name: span for name, (*_, span) in RUN_QUANTITIES.items()}
+    if model == "full":
+        spans["slenderness"] = RANGES["critical_angle"]
+    checked: dict[str, Any] = {
+        name: number_or_axis(name, given.get(name), span)
+        for name, span in spans.items()
+        if given.get(name) is not None or name != "restitution"
+    }
+    axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
+    fixed = {name: value for name, value in checked.items() if name not in axes}
+    _check_polarity(checked["polarity"])
+    fixed["inertia_ratio"] = within("inertia_ratio", inertia_ratio, *INERTIA_RATIOS)
+    if "restitution" not in checked:
+        squattest = float(np.max(checked["slenderness"]))
+        if housner_restitution(squattest, fixed["inertia_ratio"]) < 0.0:
+            allowed = "be a critical angle in rad for which Housner's restitution is not negative"
+            raise Refusal("slenderness", allowed, squattest, "or give {restitution}")
+    measure, values = intensity_of(intensity, records)
+    if len(records) > 1 or (one_run and not axes):
+        axes = {"record": np.arange(float(len(records)))} | axes
+    else:
+        fixed["record"] = 0.0
+    if not axes:
+        allowed = "be an array if nothing else varies and there is one record"
+        raise Refusal("size", allowed, checked["size"], "rk.simulate follows one motion")
+    return MotionSpec(
+        axes,
+        fixed,
+        dict(enumerate(records)),
+        dict(enumerate(values.tolist())),
+        measure=measure,
+        digest=records.digest,
+        model=model,
+    )
+
+
+def _check_polarity(polarity: float | np.ndarray) -> None:
+    wrong = [value for value in np.atleast_1d(polarity).tolist() if abs(value) != 1.0]
+    if wrong:
+        raise Refusal("polarity", "be 1, -1 or [-1, 1]", wrong[0])
+
+
+def _each(formula: Any, values: np.ndarray, inertia_ratio: float) -> np.ndarray:
+    """Apply a formula for one block to many, with the rounding of the formula."""
+    distinct, places = np.unique(values, return_inverse=True)
+    return np.array([formula(value, inertia_ratio) for value in distinct.tolist()])[places]
+
+
+PULSE_QUANTITIES: dict[str, tuple[str, str]] = {
+    "amplitude": ("A", "largest base acceleration in units of g theta_cr"),
+    "frequency": ("Ω", "frequency of the pulse in radians per normalised time"),
+    "restitution": ("e", "coefficient of restitution"),
+    "critical_angle": ("θcr", "critical angle of the full equation of motion in rad"),
+}
+"""Symbol and description of each quantity, in the order of the dimensions."""
+
+
+class Pulses(NamedTuple):
+    """Pulses at n points, each an array (n,)."""
+
+    kind: str
+    amplitude: np.ndarray
+    duration: np.ndarray
+    restitution: np.ndarray
+    critical_angle: np.ndarray  # rad
+    full: bool  # whether the blocks follow the full equation of motion
+
+
+def turns(kind: str) -> float:
+    """Return the periods 2π/Ω in the duration of a pulse: a half for the half-sine, one for the others."""
+    return SINES[kind].turns if kind in SINES else 1.0
+
+
+@frozen(eq=False)
+class PulseSpec(SurveySpec):
+    """Survey of blocks at rest under one pulse of a kind."""
+
+    comment = "A peak is in units of the critical angle; impacts of chattering sequences do not count."
+
+    kind: str = field(kw_only=True)
+
+    @property
+    def full(self) -> bool:
+        """Flag: the blocks follow the full equation of motion."""
+        return "critical_angle" in self.axes or "critical_angle" in self.fixed
+
+    def inputs(self, values: Values) -> Pulses:
+        """Return the pulses at n points."""
+        count = next(iter(values.values())).size
+        given = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
+        duration = turns(self.kind) * math.tau / given["frequency"]
+        angle = given["critical_angle"] if self.full else np.zeros(count)
+        return Pulses(self.kind, given["amplitude"], duration, given["restitution"], angle, self.full)
+
+    def described(self) -> dict[str, Any]:
+        """Return the kind of the pulse and the quantities that do not vary, by name."""
+        return {"pulse": self.kind} | self.fixed
+
+    def coordinate(self, name: str) -> dict[str, str]:
+        """Return the attributes of a coordinate."""
+        symbol, long_name = PULSE_QUANTITIES[name]
+        return {"long_name": long_name, "symbol": symbol, "units": "1"}
+
+
+def pulse_question(
+    kind: str, amplitude: Any, frequency: Any, restitution: Any, critical_angle: Any = None
+) -> PulseSpec:
+    """Check the quantities of a survey of pulses: arrays are axes. Restitution and critical angle may be numbers.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a quantity is of the wrong type or outside its range, or if amplitude or frequency is a number.
+    """
+    kind = one_of("kind", kind, KINDS)
+    axes: dict[str, np.ndarray] = {}
+    fixed: dict[str, float] = {}
+    given = {"amplitude": amplitude, "frequency": frequency, "restitution": restitution}
+    if critical_angle is not None:
+        given["critical_angle"] = critical_angle
+    for name, value in given.items():
+        if name in ("amplitude", "frequency") and not is_axis(value):
+            allowed = "be an ascending array, an axis of the spectrum"
+            raise WrongType(name, allowed, value, "such as np.linspace(start, stop, count)")
+        checked = number_or_axis(name, value, RANGES[name])
+        if isinstance(checked, np.ndarray):
+            axes[name] = checked
+        else:
+            fixed[name] = checked
+    return PulseSpec(axes, fixed, kind=kind)
+
+
+def asked_of(system: System) -> dict[str, float]:
+    """Return the quantities of a system as a survey takes them: the period but not the frequency."""
+    check_periodic(system, None)
+    check_constant_restitution(system)
+    found = quantities(system)
+    return {name: found[name] for name in found if name != "frequency"}
+
+
+def points_of(system: System, starts: np.ndarray) -> Points:
+    """Return the points of one system with initial states (n, 2)."""
+    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked_of(system))

@@ -25,7 +25,7 @@ DEFAULT_STARTS = 200
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """Return the arguments given by options and study file; options take precedence."""
     from rocking.model.validation import within
-    from rocking.survey.basin_boundaries import WIDTHS as BOUNDARY_WIDTHS
+    from rocking.survey.uncertainty_exponent import WIDTHS as BOUNDARY_WIDTHS
 
     checks: dict[str, Callable[[Any], Any]] = {
         **survey_quantities.fixed(*SYSTEM),
@@ -42,7 +42,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
 
 def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
     """Compute the basins; return them with the block if they are in SI."""
-    from rocking.survey.basin_map import basin_map
+    from rocking.survey.basins import basin_map
 
     asked = {name: each for name, each in given.items() if name not in SUFFIXES}
     system, _, block = system_of({name: asked.pop(name) for name in (*SYSTEM, "model") if name in asked})

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from rocking.model.block import Block
     from rocking.model.system import System
-    from rocking.orbits.frequency_response_result import FrequencyResponse
+    from rocking.orbits.frequency_response import FrequencyResponse
 
 DEFAULT_MODES = (1, 3)
 WORDS = {"modes must": "--modes must", "theory.symmetric_modes": "rocking modes"}

@@ -75,12 +75,12 @@ def _check_theory(asked: Question) -> None:
     name = next(iter(asked.drawn))
     if "plot" not in asked.places:
         raise YourInput(f"{option(name)} needs a plot: give --plot FILE as well")
-    from rocking.plot.parts import legend, theory_curves
-    from rocking.survey.harmonic_spec import question as spec_of
+    from rocking.plot import style, theory_curves
+    from rocking.survey.spec import question as spec_of
 
     with your_input(ARGUMENTS | options(*THEORY)):
         spec = spec_of(asked.arguments, 2, "a parametric map")
-        legend.check_symbols(asked.drawn.get("symbols"))
+        style.check_symbols(asked.drawn.get("symbols"))
         theory_curves.check(asked.drawn.get("curves", ()), spec.axes, spec.fixed)
 
 
@@ -118,14 +118,14 @@ def write_tiles(found: xr.Dataset, path: Path, asked: Question) -> None:
 
 def write_netcdf(found: xr.Dataset, path: Path, asked: Question) -> None:
     """Write the map as netCDF, in parts; with SI input also its axes in SI."""
-    from rocking.survey.store.export import to_netcdf
+    from rocking.survey.export import to_netcdf
 
     to_netcdf(files.with_block(found, asked.block), path)
 
 
 def write_csv(found: xr.Dataset, path: Path, asked: Question) -> None:
     """Write one row per point as CSV: its system and all variables, flags as words; with a block also in SI."""
-    from rocking.survey.store.export import tables
+    from rocking.survey.export import tables
 
     rows = (files.with_fixed(table, found.kind.dims, found.attrs) for table in tables(found))
     files.write_csv((files.columns(row, asked.block) for row in rows), path)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from rocking.model.block import Block
     from rocking.model.system import State, System
-    from rocking.orbits.orbit_diagram_result import OrbitDiagram
+    from rocking.orbits.orbit_diagram import OrbitDiagram
 
 OWN = options("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
 

@@ -63,7 +63,7 @@ def _check_axes(given: Mapping[str, Any]) -> None:
 
 def compute(asked: Question) -> xr.Dataset:
     """Compute the spectrum."""
-    from rocking.survey.overturning_spectrum import overturning_spectrum
+    from rocking.survey.spectra import overturning_spectrum
 
     arguments = asked.arguments | {"store": asked.places.get("store")}
     return carried_out(overturning_spectrum, arguments, asked.block)

@@ -58,7 +58,7 @@ def _range(name: str, entry: Any) -> Any:
 
 def compute(asked: Question) -> SafeBasin:
     """Compute the safe basin."""
-    from rocking.survey.safe_basin import safe_basin
+    from rocking.survey.basins import safe_basin
 
     found: SafeBasin = carried_out(safe_basin, asked.arguments, asked.block, WORDS)
     return found

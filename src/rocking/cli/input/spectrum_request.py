@@ -87,8 +87,7 @@ def _radians(degrees: Any) -> Any:
     """Return a slenderness or an axis in rad; YourInput outside its range, in degrees as typed."""
     import numpy as np
 
-    from rocking.survey.motion_spec import SLENDERNESSES
-    from rocking.survey.spec import number_or_axis
+    from rocking.survey.spec import SLENDERNESSES, number_or_axis
 
     low, high = map(math.degrees, SLENDERNESSES)
     with your_input():
@@ -118,7 +117,7 @@ def _check_plot(asked: Question) -> None:
     """Raise YourInput for a spectrum that cannot be drawn, before it is computed."""
     import numpy as np
 
-    from rocking.plot.rocking_spectrum import MOST_SLENDERNESSES
+    from rocking.plot.rocking_spectra import MOST_SLENDERNESSES
 
     varied = {name for name, value in asked.arguments.items() if np.ndim(value)}
     for name in ("scale", "restitution"):
@@ -137,7 +136,7 @@ def _check_plot(asked: Question) -> None:
 
 def compute(asked: Question) -> xr.Dataset:
     """Compute the spectrum."""
-    from rocking.survey.rocking_spectrum import rocking_spectrum
+    from rocking.survey.spectra import rocking_spectrum
 
     arguments = {"records": asked.records, "store": asked.places.get("store")} | asked.arguments
     return carried_out(rocking_spectrum, arguments, typed=asked.typed)

@@ -116,7 +116,7 @@ def counts(*names: str) -> dict[str, Check]:
     """Return the checks of entries that are whole numbers between limits."""
     from rocking.response.classify import MAX_CYCLES, MAX_PERIOD
     from rocking.survey.overturning_amplitude import MAX_PHASES
-    from rocking.survey.sampling.random_points import MAX_SAMPLES, MAX_SEED
+    from rocking.survey.random_points import MAX_SAMPLES, MAX_SEED
 
     limits = {
         "samples": (1, MAX_SAMPLES),
@@ -140,7 +140,7 @@ def paths(*names: str) -> dict[str, Check]:
 
 
 def _in_range(name: str, entry: Any) -> Any:
-    from rocking.survey.harmonic_spec import check_quantity
+    from rocking.survey.spec import check_quantity
 
     read = quantity(name, entry)
     for each in read[:2] if isinstance(read, Axis) else (read,):
@@ -149,7 +149,7 @@ def _in_range(name: str, entry: Any) -> Any:
 
 
 def _number(name: str, entry: Any) -> Any:
-    from rocking.survey.harmonic_spec import check_quantity
+    from rocking.survey.spec import check_quantity
 
     number(name, entry)
     return reals(name, entry) if name in SI else check_quantity(name, entry)

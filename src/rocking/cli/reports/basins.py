@@ -29,7 +29,7 @@ def write(found: BasinMap, files: Mapping[str, Path], block: Block | None) -> No
 
 def _tables(found: BasinMap) -> Iterator[dict[str, np.ndarray]]:
     """Yield columns by name: the initial state, its attractor as a number and by name, and all other variables."""
-    from rocking.survey.store.export import tables
+    from rocking.survey.export import tables
 
     names = np.array([each.name for each in found.attractors])
     # Random initial states lie along one dimension, and their angles and velocities are no axes.

@@ -18,7 +18,7 @@ from rocking.model.block import Block
 
 if TYPE_CHECKING:
     from rocking.orbits.branch import Branch
-    from rocking.orbits.frequency_response_result import FrequencyResponse
+    from rocking.orbits.frequency_response import FrequencyResponse
 
 
 def write(found: FrequencyResponse, block: Block | None, files: Mapping[str, Path]) -> None:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: bool) -> None:
     """Print the fractions of the response types on stdout, and the paths of the files."""
-    from rocking.survey.store.export import counts
+    from rocking.survey.export import counts
 
     kinds, criteria = counts(found, "kind"), counts(found, "evidence")
     full = "critical_angle" in (*found.coords, *found.attrs)

@@ -16,7 +16,7 @@ from rocking.cli.reports.validity import warned, warnings
 from rocking.model.block import PHYSICAL, Block
 
 if TYPE_CHECKING:
-    from rocking.orbits.orbit_diagram_result import OrbitDiagram
+    from rocking.orbits.orbit_diagram import OrbitDiagram
 
 
 def show(

@@ -25,7 +25,7 @@ MODES = ("no impact", "1 impact", "2 or more impacts")
 
 def write(found: xr.Dataset, files: Mapping[str, Path], block: Block | None) -> None:
     """Write the plot, one row per run as CSV, and the dataset; with a block also in SI."""
-    from rocking.survey.store.export import tables
+    from rocking.survey.export import tables
 
     write_result(
         files,
@@ -39,7 +39,7 @@ def write(found: xr.Dataset, files: Mapping[str, Path], block: Block | None) -> 
 
 def show(found: xr.Dataset, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
     """Print the fractions of the outcomes and of the modes of overturning, and the paths of the files."""
-    from rocking.survey.store.export import counts
+    from rocking.survey.export import counts
 
     outcomes, doubtful = counts(found, "outcome"), counts(found, "certified")["undecided"]
     full = "critical_angle" in (*found.coords, *found.attrs)

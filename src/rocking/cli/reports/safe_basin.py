@@ -27,7 +27,7 @@ THRESHOLDS = {"heteroclinic": "exact tangency A*", "melnikov": "Melnikov's A_M"}
 
 def write(found: SafeBasin, block: Block | None, files: Mapping[str, Path]) -> None:
     """Write the plot, one row per amplitude as CSV, and the dataset; with a block also in SI."""
-    from rocking.survey.store.export import tables
+    from rocking.survey.export import tables
 
     data = found.dataset
     write_result(

@@ -35,7 +35,7 @@ def write(found: xr.Dataset, files: Mapping[str, Path]) -> None:
 
 def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
     """Yield columns by heading, with units: the record, the quantities that vary, and the results."""
-    from rocking.survey.store.export import tables as rows_of
+    from rocking.survey.export import tables as rows_of
 
     for table in rows_of(found.drop_vars(["pga", "frequency_parameter"], errors="ignore")):
         columns: dict[str, np.ndarray] = {}
@@ -54,7 +54,7 @@ def show(
     found: xr.Dataset, records: RecordSet, doubts: Sequence[str], files: Sequence[Path], *, as_json: bool
 ) -> None:
     """Print the fractions of the outcomes on stdout, with the warnings `doubts` of the reader, and the paths of the files."""
-    from rocking.survey.store.export import counts
+    from rocking.survey.export import counts
 
     outcomes = counts(found, "outcome")
     doubtful = counts(found, "certified")["undecided"]

@@ -10,7 +10,7 @@ from bokeh.models.annotations import Span as Line
 from rocking.explorer.bokeh_figures import empty, framed, plane
 from rocking.explorer.ground_motion.size_map import PALETTE
 from rocking.explorer.ground_motion.view import DEFAULT, SIZES, SLENDERNESS, GroundView
-from rocking.plot.parts import style
+from rocking.plot import style
 
 TICKS = [digit * 10.0**power for power in range(-3, 4) for digit in (1, 2, 5)]
 SECONDS = "time t (s)"

@@ -17,7 +17,7 @@ from rocking.explorer.ground_motion.map_file import netcdf
 from rocking.explorer.ground_motion.size_map import SizePicture, SizePlane, SizeRefinement
 from rocking.explorer.ground_motion.view import DEFAULT, GroundView
 from rocking.model.validation import TooManyEvents
-from rocking.survey.measures.block_endings import BlockEndings
+from rocking.survey.ending_measures import BlockEndings
 
 UNFINISHED = "the map is not complete: save it when it is"
 

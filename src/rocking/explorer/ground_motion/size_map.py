@@ -18,9 +18,8 @@ from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
 from rocking.model.text import percent
 from rocking.model.verdict import Outcome
-from rocking.plot import palette
-from rocking.plot.parts import style
-from rocking.survey.measures.block_endings import BlockEndings
+from rocking.plot import palette, style
+from rocking.survey.ending_measures import BlockEndings
 
 POINTS = INTERVALS + 1
 """Points along each side of the finest map."""

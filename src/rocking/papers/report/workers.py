@@ -22,7 +22,7 @@ from typing import Any, ParamSpec, TypeVar
 from attrs import frozen
 
 from rocking.model.progress import Bar
-from rocking.survey.engine.tile_loop import cores
+from rocking.survey.run_survey import cores
 
 Given = ParamSpec("Given")
 Result = TypeVar("Result")

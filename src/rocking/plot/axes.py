@@ -1,0 +1,150 @@
+"""Axes of figures in normalised or SI units; labels of intensities and of limits of the angle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from attrs import frozen
+
+from rocking.model.block import Block
+from rocking.model.validation import instance
+
+
+@frozen
+class Quantities:
+    """Conversions from normalised values to the units of a figure, with the labels of axes.
+
+    A label reads "quantity (unit)"; a dimensionless quantity has no unit. `reading` is a template for a line of text. Its
+    fields are a time, the number of its decimals, an angle and the format of the angle.
+    """
+
+    time: Callable[[Any], Any]
+    amplitude: Callable[[Any], Any]
+    angle: Callable[[Any], Any]
+    velocity: Callable[[Any], Any]
+    frequency: Callable[[Any], Any]
+    density: Callable[[Any], Any]
+    time_label: str
+    angle_label: str
+    velocity_label: str
+    speed_label: str
+    base_label: str
+    frequency_label: str
+    density_label: str
+    time_unit: str
+    reading: str
+
+
+def _same(values: Any) -> Any:
+    return values
+
+
+NORMALISED = Quantities(
+    time=_same,
+    amplitude=_same,
+    angle=_same,
+    velocity=_same,
+    frequency=_same,
+    density=_same,
+    time_label=r"time $\tau = \alpha t$",
+    angle_label=r"angle $\Theta = \theta/\theta_\mathrm{cr}$",
+    velocity_label=r"velocity $\Theta' = \mathrm{d}\Theta/\mathrm{d}\tau$",
+    speed_label=r"speed after impact $|\Theta'|$",
+    base_label="acceleration\nof base ($g\\theta_\\mathrm{cr}$)",
+    frequency_label=r"frequency (cycles per unit of $\tau$)",
+    density_label=r"power spectral density $S_\Theta$",
+    time_unit="τ",
+    reading="τ = {:.{}f}    Θ = {:{}}",
+)
+
+
+def quantities(block: Block | None) -> Quantities:
+    """Return normalised quantities, or, for a `block`, seconds, degrees and degrees per second."""
+    if block is None:
+        return NORMALISED
+    instance("block", block, Block)
+    return Quantities(
+        time=block.seconds,
+        amplitude=block.acceleration,
+        angle=block.degrees,
+        velocity=lambda velocity: np.degrees(block.radians_per_second(velocity)),
+        frequency=lambda frequency: frequency / block.seconds(1.0),
+        density=lambda density: density * block.degrees(1.0) ** 2 * block.seconds(1.0),
+        time_label=r"time $t$ (s)",
+        angle_label=r"angle $\theta$ (°)",
+        velocity_label=r"velocity $\dot\theta$ (°/s)",
+        speed_label=r"speed after impact $|\dot\theta|$ (°/s)",
+        base_label="acceleration\nof base (m/s²)",
+        frequency_label="frequency (Hz)",
+        density_label=r"power spectral density $S_\theta$ (°²/Hz)",
+        time_unit="s",
+        reading="t = {:.{}f} s    θ = {:{}}°",
+    )
+
+
+PARAMETERS = {
+    "amplitude": r"amplitude $A$",
+    "period": r"period $T$",
+    "frequency": r"frequency $\Omega$",
+    "phase": r"phase $\varphi$ (rad)",
+    "restitution": r"coefficient of restitution $e$",
+    "brace_angle": r"brace angle $\Theta_\mathrm{b}$",
+    "brace_restitution": r"coefficient of restitution of the braces $r$",
+    "critical_angle": r"critical angle $\theta_\mathrm{cr}$ (rad)",
+    "angle": r"initial angle $\Theta_0$",
+    "velocity": r"initial velocity $\Theta'_0$",
+}
+SI_PARAMETERS = {
+    "amplitude": r"amplitude $a_x$ (m/s²)",
+    "period": r"period (s)",
+    "frequency": r"frequency (Hz)",
+    "brace_angle": r"brace angle $\theta_\mathrm{b}$ (°)",
+    "angle": r"initial angle $\theta_0$ (°)",
+    "velocity": r"initial velocity $\dot\theta_0$ (°/s)",
+}
+
+
+def parameter(name: str, block: Block | None) -> tuple[Callable[[Any], Any], str]:
+    """Return the conversion of a parameter of a system or an initial state, and the label of its axis."""
+    if block is None or name not in SI_PARAMETERS:
+        return np.asarray, PARAMETERS[name]
+    shown = quantities(block)
+    turns: dict[str, Callable[[Any], Any]] = {
+        "amplitude": shown.amplitude,
+        "period": shown.time,
+        "frequency": block.hertz,
+        "brace_angle": shown.angle,
+        "angle": shown.angle,
+        "velocity": shown.velocity,
+    }
+    return turns[name], SI_PARAMETERS[name]
+
+
+SYMBOLS = {
+    "I_A": "$I_A$",
+    "PGA/(g tan θcr)": r"PGA$/(g\,\tan\theta_\mathrm{cr})$",
+    "α PGV/(g tan θcr)": r"$\alpha\,$PGV$/(g\,\tan\theta_\mathrm{cr})$",
+}
+
+
+def level_label(scale: Any) -> str:
+    """Return the label of the axis of the levels of a dataset: description, symbol and unit."""
+    symbol, unit = scale.attrs["symbol"], scale.attrs.get("units", "1")
+    name = scale.attrs["long_name"]
+    if "/" in symbol:
+        name = ""
+    elif symbol in name:
+        symbol = ""
+    return " ".join(
+        filter(None, (name, SYMBOLS.get(symbol, symbol), "" if unit in ("1", "") else f"({unit})"))
+    )
+
+
+def limit_label(limit: float, block: Block) -> str:
+    """Return the event of exceeding a limit of |Θ|, in degrees."""
+    if math.isinf(limit):
+        return "overturning"
+    return rf"$|\theta| > {block.degrees(limit):.3g}°$ (${limit:g}\,\theta_\mathrm{{cr}}$)"

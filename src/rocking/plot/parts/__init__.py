@@ -1,1 +1,0 @@
-"""Parts of figures: styles, axes, legends, scenes and files."""

@@ -1,0 +1,337 @@
+"""Basins of attraction with the uncertainty exponents of their boundaries, and safe basins over the amplitude."""
+
+from __future__ import annotations
+
+import math
+import os
+from concurrent.futures import Executor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.kernels.classify import verdict_record as kernel
+from rocking.model.progress import Bar
+from rocking.model.share import Share
+from rocking.model.survey_results import Attractor, BasinMap, SafeBasin
+from rocking.model.system import MAX_START, RANGES, System, check_between
+from rocking.model.validation import WrongType, instance, refuse_if, whole, within
+from rocking.model.verdict import Kind
+from rocking.survey.attractors import destination, label_attractors, make_attractors
+from rocking.survey.measurement import Arrays, Measurement
+from rocking.survey.memory import attributes
+from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
+from rocking.survey.run_survey import run_survey
+from rocking.survey.spec import HarmonicSpec, Points, asked_of, coordinate, points, points_of, question
+from rocking.survey.uncertainty_exponent import WIDTHS, Boundaries
+from rocking.survey.verdict_measures import interval_variables, outcome
+from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+BASINS = "Basins of attraction of a free-standing block on a shaking base"
+
+
+def basin_map(
+    system: System,
+    *,
+    angle: Any,
+    velocity: Any,
+    samples: int | None = None,
+    seed: int = 0,
+    max_cycles: int = 10_000,
+    max_period: int = 64,
+    boundary_runs: int = 100_000,
+    boundary_width: float | None = None,
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
+    progress: bool = False,
+    repair: bool = False,
+) -> BasinMap:
+    """Compute basins of attraction: the attractor, rest or overturning to which each initial state leads.
+
+    Parameters
+    ----------
+    system : System
+        The block, its forcing and its braces.
+    angle, velocity : array (n,) or pair
+        Initial angles Θ and angular velocities Θ'. Without `samples` the axes of a grid, ascending; with `samples`
+        ranges (low, high) from which the initial states are drawn.
+    samples : int, optional
+        Number of random initial states, which replace the grid, in [1, 10⁷]. Default: a grid.
+    seed : int
+        Random seed in [0, 2³² − 1]. The same seed gives the same initial states. Default: 0.
+    max_cycles, max_period : int
+        As in `classify`. A response is classified as chaotic after 10⁴ cycles at the earliest (with braces 10⁵).
+        Default: 10,000 and 64.
+    boundary_runs : int
+        Approximate number of additional runs for the uncertainty exponents; 0 disables them. Default: 100,000.
+    boundary_width : float, optional
+        Largest width of the intervals of both exponents, in [1e-4, 1]. More runs are added to `boundary_runs` until the intervals
+        are narrower, until further runs narrow them no more, or until there are 10⁷ runs. Default: no further runs.
+    store, executor, progress, repair
+        As in `parametric_map`. A store holds a grid, so that it excludes `samples`. The progress bars include the further runs.
+
+    Returns
+    -------
+    BasinMap
+        `.attractors` with their `.fractions`, `.uncertainty_exponent`, `.attractor_exponent` and `.dataset`; `print`
+        shows one line. Attractors are distinguished by their orbits, so that an asymmetric orbit and its mirror image
+        count as two.
+
+    Raises
+    ------
+    TypeError, ValueError, ImportError, OSError
+        As in `parametric_map`.
+
+    See Also
+    --------
+    safe_basin : Fraction of safe initial states over the amplitude.
+    find_orbits : Search for periodic orbits.
+    rocking.plot.basins : Plot the basins.
+
+    Notes
+    -----
+    The intervals of the fractions are Wilson's at 95 %. Their upper ends assume that all undetermined initial states
+    belong to the attractor. They hold for random initial states; a grid is treated as an equal number of random ones.
+    The error of a grid is usually smaller: about the fraction of cells on a boundary, divided by the square root of
+    their number. A grid does not resolve structure between its points.
+
+    Not guaranteed: what `classify` does not guarantee. Orbits closer to each other than 10⁻⁶ count as one. All
+    quasi-periodic responses count as one, and so do all undamped chaotic responses. Other chaotic responses count as
+    one if their mean angles on the section differ by less than ten standard errors. This distinguishes two chaotic
+    attractors that are mirror images of each other, but not two with equal means. An exponent holds for the tested
+    distances, 2⁻⁶ to 2⁻¹³ of the width of the range of initial states. A boundary may be smooth on a finer scale.
+
+    References
+    ----------
+    McDonald, Grebogi, Ott & Yorke, Physica D 17, 125–153 (1985).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=3.5, period=1.0), restitution=0.8)
+    >>> starts = np.linspace(-1, 1, 41)
+    >>> found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0)
+    >>> [each.name for each in found.attractors]
+    ['period 1, symmetric', 'overturned', 'period 3, symmetric']
+    """
+    instance("system", system, System)
+    measure = destination(max_cycles, max_period, BASINS)
+    runs = whole("boundary_runs", boundary_runs, 0, MAX_SAMPLES)
+    width = math.inf if boundary_width is None else within("boundary_width", boundary_width, *WIDTHS)
+    refuse_if(runs == 0 and width < math.inf, "boundary_runs", "be positive to be added to", runs)
+    random = generator(seed)
+    if samples is None:
+        asked = question({**asked_of(system), "angle": angle, "velocity": velocity}, 2, "a basin map")
+        found = run_survey(asked, measure, store, executor, progress=progress, repair=repair).load()
+        ends = {name: (values[0], values[-1]) for name, values in asked.axes.items()}
+        starts = grid_starts(asked)
+    else:
+        if store is not None:
+            raise WrongType("store", "be used without {samples}, because it holds a grid", str(store))
+        ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
+        reach = MAX_START if system.braces is None else system.braces.angle
+        check_between(max(ends["angle"], key=abs), reach)
+        starts = random.uniform(*_corners(ends), (whole("samples", samples, 1, MAX_SAMPLES), 2))
+        shown = "initial states" if instance("progress", progress, bool) else ""
+        answers = sampled(points_of(system, starts), measure, executor, shown)
+        found = _random_dataset(system, starts, measure, answers).assign_attrs(seed=seed)
+    labels, first = label_attractors(system, {str(name): found[name].values for name in found.data_vars})
+    attractors = make_attractors(system, starts, first, max_cycles, max_period)
+    _attach(found, labels, [each.name for each in attractors])
+    fractions = _fractions(np.bincount(labels), attractors)
+    boundaries = Boundaries(system, *_corners(ends), random, measure, executor, progress)
+    return BasinMap(system, found, attractors, fractions, *boundaries.exponents(runs, width))
+
+
+def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[Share, ...]:
+    """Return the fraction of each attractor; undetermined initial states may belong to any of them."""
+    undetermined = [each.kind is Kind.UNDETERMINED for each in attractors]
+    unknown = int(counts[undetermined].sum())
+    return tuple(
+        Share(count, counts.sum(), 0 if not_known else unknown)
+        for count, not_known in zip(counts, undetermined, strict=True)
+    )
+
+
+def grid_starts(asked: HarmonicSpec) -> np.ndarray:
+    """Return the initial states (n, 2) of a grid, in C order."""
+    grid = dict(zip(asked.axes, np.meshgrid(*asked.axes.values(), indexing="ij"), strict=True))
+    return np.column_stack([grid["angle"].ravel(), grid["velocity"].ravel()])
+
+
+def _corners(ends: dict[str, tuple[float, float]]) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the lowest and the highest initial state."""
+    (a, b), (c, d) = ends["angle"], ends["velocity"]
+    return (a, c), (b, d)
+
+
+def _random_dataset(system: System, starts: np.ndarray, measure: Measurement, answers: Arrays) -> xr.Dataset:
+    """Return the dataset of random initial states from their results."""
+    import xarray as xr
+
+    return xr.Dataset(
+        {each.name: ("sample", answers[each.name], each.attributes) for each in measure.variables},
+        {
+            name: ("sample", starts[:, column], coordinate(name))
+            for column, name in enumerate(("angle", "velocity"))
+        },
+        attributes(HarmonicSpec({}, asked_of(system)), measure),
+    )
+
+
+def _attach(found: xr.Dataset, labels: np.ndarray, names: list[str]) -> None:
+    """Add the variable `attractor`, the attractor of each initial state, to a dataset."""
+    words = [name.replace(",", "").replace("(", "").replace(")", "").replace(" ", "-") for name in names]
+    metadata = {
+        "long_name": "attractor of the initial state, in descending order of area fraction",
+        "flag_values": np.arange(len(names), dtype=np.int32),
+        "flag_meanings": " ".join(words),
+    }
+    found["attractor"] = (found.kind.dims, labels.reshape(found.kind.shape).astype(np.int32), metadata)
+
+
+SAFE_BASIN = "Safe basin of a free-standing block on a shaking base"
+
+
+def safe_basin(
+    *,
+    amplitude: Any,
+    period: float | None = None,
+    frequency: float | None = None,
+    restitution: float,
+    phase: float = 0.0,
+    brace_angle: float | None = None,
+    brace_restitution: float = 1.0,
+    critical_angle: float | None = None,
+    angle: Any = (-1.0, 1.0),
+    velocity: Any = (-1.0, 1.0),
+    samples: int = 10_000,
+    seed: int = 0,
+    max_cycles: int = 10_000,
+    max_period: int = 64,
+    executor: Executor | None = None,
+    progress: bool = False,
+) -> SafeBasin:
+    """Estimate the fraction of initial states that do not overturn, over the amplitude.
+
+    The result includes the thresholds A* and A_M of the amplitude.
+
+    For e > 0 and A* < A < √(1 + Ω²) the boundary of the overturning initial states is fractal (`horseshoe`).
+    The safe fraction does not necessarily decrease
+    from there on. Both thresholds hold for a slender block without braces, and are NaN
+    for any other.
+
+    Parameters
+    ----------
+    amplitude : array (n,)
+        Amplitudes A, ascending.
+    period, frequency, restitution, phase, brace_angle, brace_restitution, critical_angle : float
+        As in `Harmonic` (either `period` or `frequency`), `System` and `Braces`.
+    angle, velocity : pair
+        Ranges (low, high) from which the initial states (Θ, Θ') are drawn. Default: (−1, 1).
+    samples : int
+        Number of initial states, in [1, 10⁷], the same ones at each amplitude. Default: 10,000.
+    seed : int
+        Random seed in [0, 2³² − 1]. Default: 0.
+    max_cycles, max_period : int
+        As in `classify`. Default: 10,000 and 64.
+    executor : concurrent.futures.Executor, optional
+        Executor that runs the computation. Default: threads on all cores.
+    progress : bool
+        Whether to show the progress on stderr. Default: False.
+
+    Returns
+    -------
+    SafeBasin
+        `.dataset`, `.shares`, `.heteroclinic_amplitude` and `.melnikov_amplitude`; `print` shows one line.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument has the wrong type or lies outside its range.
+
+    See Also
+    --------
+    basin_map : Basins at one amplitude.
+    overturning_amplitude : Lowest overturning amplitude from rest.
+    rocking.plot.safe_basin : Plot the fraction.
+
+    Notes
+    -----
+    The intervals are Wilson's at 95 %. Because the initial states are the same, the difference of the fractions at two
+    amplitudes is more certain than their intervals suggest. There is no store: the same seed reproduces the initial
+    states, and `basin_map` stores a grid of them.
+    Not guaranteed: that undetermined and chaotic responses never overturn. Both count as safe.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = rk.safe_basin(amplitude=[3.3, 3.7, 5.5], period=1.0, restitution=0.8, samples=500)
+    >>> found.dataset.safe.dims, round(found.heteroclinic_amplitude, 4)
+    (('amplitude',), 3.6878)
+    """
+    measure = outcome(max_cycles, max_period, SAFE_BASIN)
+    given = {
+        "amplitude": amplitude,
+        "period": period,
+        "frequency": frequency,
+        "restitution": restitution,
+        "phase": phase,
+        "brace_angle": brace_angle,
+        "brace_restitution": brace_restitution,
+        "critical_angle": critical_angle,
+    }
+    asked = question(given, 1, "a safe basin")
+    if "amplitude" not in asked.axes:
+        raise WrongType("amplitude", "be an axis of amplitudes, ascending", amplitude)
+    reach = (
+        RANGES["angle"] if brace_angle is None else (-asked.fixed["brace_angle"], asked.fixed["brace_angle"])
+    )
+    low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
+    starts = generator(seed).uniform(low, high, (whole("samples", samples, 1, MAX_SAMPLES), 2))
+    amplitudes, kinds = asked.axes["amplitude"].tolist(), []
+    total = len(amplitudes) * len(starts)
+    with Bar(total, "initial states", shown=instance("progress", progress, bool)) as bar:
+        for value in amplitudes:
+            kinds.append(sampled(_placed(asked, value, starts), measure, executor)["kind"])
+            bar.advance(len(starts))
+    drawn = {"seed": seed, "angle_range": [low[0], high[0]], "velocity_range": [low[1], high[1]]}
+    return _summed_up(asked, measure, kinds, drawn)
+
+
+def _placed(asked: HarmonicSpec, amplitude: float, starts: np.ndarray) -> Points:
+    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked.fixed | {"amplitude": amplitude})
+
+
+def _summed_up(
+    asked: HarmonicSpec, measure: Any, kinds: list[np.ndarray], drawn: dict[str, Any]
+) -> SafeBasin:
+    import xarray as xr
+
+    shares = tuple(Share(np.count_nonzero(each != kernel.OVERTURNS), each.size) for each in kinds)
+    open_ones = np.array([np.mean(each == kernel.UNDETERMINED) for each in kinds])
+    period = asked.fixed.get("period") or 2.0 * np.pi / asked.fixed["frequency"]
+    exact = first_order = np.nan
+    if "brace_angle" not in asked.fixed and not asked.full:
+        exact = heteroclinic_amplitude(period, asked.fixed["restitution"])
+        first_order = melnikov_amplitude(period, asked.fixed["restitution"])
+    variables = interval_variables(
+        "safe", shares, "amplitude", "fraction of the initial states that do not overturn"
+    )
+    variables["undetermined"] = (
+        "amplitude",
+        open_ones,
+        {"long_name": "fraction of the initial states whose response is undetermined", "units": "1"},
+    )
+    metadata = attributes(asked, measure) | {
+        "samples": shares[0].of,
+        **drawn,
+        "heteroclinic_amplitude": exact,
+        "melnikov_amplitude": first_order,
+    }
+    coordinates = {"amplitude": ("amplitude", asked.axes["amplitude"], coordinate("amplitude"))}
+    return SafeBasin(xr.Dataset(variables, coordinates, metadata), shares, exact, first_order)

@@ -1,0 +1,248 @@
+"""Measurements of surveys of ground motions and pulses: how runs end, their largest angles, margins and modes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from itertools import pairwise, starmap
+
+import numpy as np
+
+from rocking.kernels.forcing import parameters as numbers
+from rocking.kernels.march import ending as ends
+from rocking.kernels.march import finite_runs, march
+from rocking.kernels.march import finite_runs as kernel
+from rocking.model.forcing import SINES, PiecewiseLinear, Pulse
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.record_set import RecordSet
+from rocking.model.verdict import Outcome
+from rocking.survey.measurement import Arrays, Measurement, Variable
+from rocking.survey.spec import Pulses, Runs, motion_question
+
+METHOD = 7
+"""Version of the method; a change of the results increases it."""
+OUTCOMES = tuple(Outcome)
+UNDECIDED, CERTIFIED, NOT_ASSESSED = range(3)
+"""Codes of the effect of rounding errors on an outcome."""
+OVERTURNED = OUTCOMES.index(Outcome.OVERTURNED)
+CODES = {
+    march.OVERTURNED: OVERTURNED,
+    march.STILL: OUTCOMES.index(Outcome.AT_REST),
+}
+
+VARIABLES = (
+    Variable(
+        "outcome",
+        "uint8",
+        255,
+        {
+            "long_name": "end of the motion",
+            "flag_values": np.arange(len(OUTCOMES), dtype=np.uint8),
+            "flag_meanings": " ".join(OUTCOMES),
+        },
+    ),
+    Variable(
+        "certified",
+        "uint8",
+        255,
+        {
+            "long_name": "whether no rounding error can have changed the outcome",
+            "flag_values": np.arange(3, dtype=np.uint8),
+            "flag_meanings": "undecided certified not-assessed",
+        },
+    ),
+    Variable(
+        "peak",
+        "float64",
+        -1.0,
+        {
+            "long_name": "largest absolute angle in units of theta_cr",
+            "units": "1",
+            "comment": "infinite if the block overturns",
+        },
+    ),
+    Variable(
+        "margin",
+        "float64",
+        math.inf,
+        {
+            "long_name": "K+ of least size over all lift-offs and impacts",
+            "units": "1",
+            "comment": "negative: lacked to overturn there; NaN: the block never moves",
+        },
+    ),
+    Variable(
+        "impacts_since_rest",
+        "int32",
+        -2,
+        {"long_name": "impacts since the block last rested", "comment": "0: overturned without impact"},
+    ),
+    Variable("impacts", "int32", -2, {"long_name": "impacts", "comment": "chattering is cut short"}),
+)
+
+
+def ending(title: str, *, with_peak: bool = True) -> Measurement:
+    """Return the measurement of the end of a motion; without the peak, which is then NaN, it takes half the time."""
+    return Measurement(
+        title, endings_of_runs, VARIABLES, {"with_peak": int(with_peak)}, METHOD, shares="outcome"
+    )
+
+
+def endings_of_runs(runs: Runs, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+    """Follow runs to their ends; None if another thread sets `stop`. Neighbours with the same record and α share tables."""
+    with_peak = bool(options["with_peak"])
+    rows, asked = np.empty(runs.record.size, ends.ENDING_ROW), np.empty(runs.record.size, kernel.RUN_ROW)
+    asked["restitution"], asked["angle"] = runs.restitution, runs.angle
+    asked["critical_angle"] = runs.slenderness
+    for part in alike(runs):
+        motion, alpha = (
+            runs.motions[int(runs.record[part.start])],
+            float(runs.frequency_parameter[part.start]),
+        )
+        base = motion.normalised(1.0, alpha)
+        asked["scale"][part] = base.scale * runs.factor[part]
+        p = sampled(base, full=runs.full)
+        if not kernel.run_batch(p, asked[part], with_peak, rows[part], stop):
+            return None
+    return answers(rows, with_peak=with_peak, assessed=not runs.full)
+
+
+def sampled(base: PiecewiseLinear, *, full: bool) -> numbers.AnySampledParameters:
+    """Return parameters with the tables of a base motion, for runs of any blocks of one kind."""
+    tables, length = numbers.tables_of(base.values, base.step), numbers.CYCLE * base.step
+    if full:
+        return numbers.full_sampled_parameters(numbers.full_block(1.0, 1.0), tables, 1.0, length)
+    return numbers.sampled_parameters(tables, 1.0, length, 1.0)
+
+
+def alike(runs: Runs) -> Iterator[slice]:
+    """Yield the stretches of neighbouring points that share the tables of a record."""
+    if not runs.record.size:
+        return
+    differs = (np.diff(runs.record) != 0) | (np.diff(runs.frequency_parameter) != 0)
+    edges = [0, *(np.flatnonzero(differs) + 1).tolist(), runs.record.size]
+    yield from starmap(slice, pairwise(edges))
+
+
+def answers(rows: np.ndarray, *, with_peak: bool, assessed: bool) -> Arrays:
+    """Return the variables of the rows of the kernel; `assessed` says whether it considers rounding errors."""
+    outcome = np.zeros(rows.size, np.uint8)
+    for status, code in CODES.items():
+        outcome[rows["status"] == status] = code
+    certified = ((rows["decided"] != 0) & (rows["status"] != march.CROWDED)).astype(np.uint8)
+    peak = np.where(outcome == OVERTURNED, math.inf, rows["peak"] if with_peak else math.nan)
+    return {
+        "outcome": outcome,
+        "certified": certified if assessed else np.full_like(certified, NOT_ASSESSED),
+        "peak": peak,
+        "margin": rows["margin"],
+        "impacts_since_rest": rows["since_rest"].astype(np.int32),
+        "impacts": rows["impacts"].astype(np.int32),
+    }
+
+
+def pulse_ending(title: str) -> Measurement:
+    """Return the measurement of the end of a motion under a pulse."""
+    return Measurement(title, endings_of_pulses, VARIABLES, {}, METHOD, shares="outcome")
+
+
+def endings_of_pulses(runs: Pulses, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+    """Follow blocks at rest under pulses to their ends; None if another thread sets `stop`."""
+    rows = np.empty(runs.amplitude.size, ends.ENDING_ROW)
+    done = _sines(runs, rows, stop) if runs.kind in SINES else _sampled(runs, rows, stop)
+    return answers(rows, with_peak=True, assessed=not runs.full) if done else None
+
+
+def _sines(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
+    """Follow pulses that are pieces of a cosine, with the rounding of `simulate`."""
+    form = SINES[runs.kind]
+    pulses = np.empty(runs.amplitude.size, kernel.PULSE_ROW)
+    pulses["amplitude"], pulses["duration"] = runs.amplitude, runs.duration
+    pulses["restitution"], pulses["critical_angle"] = runs.restitution, runs.critical_angle
+    pulses["frequency"], pulses["phase"] = (
+        math.tau * form.turns / runs.duration,
+        numbers.within_a_turn(form.phase),
+    )
+    return kernel.run_pulses(a_pulse(full=runs.full), pulses, True, rows, stop)
+
+
+def a_pulse(*, full: bool) -> numbers.AnyPulseParameters:
+    """Return parameters of any pulse, which give the kernel the kind of block."""
+    pulse = {"amplitude": 1.0, "frequency": 1.0, "phase": 0.0, "duration": 1.0, "cycle_length": 1.0}
+    if full:
+        return numbers.full_pulse_parameters(**pulse, block=numbers.full_block(1.0, 1.0))
+    return numbers.pulse_parameters(**pulse, block=numbers.BlockParameters(1.0, math.inf, 1.0))
+
+
+def _sampled(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
+    """Follow pulses of straight lines and Ricker pulses; pulses of one duration share tables."""
+    asked = np.empty(rows.size, kernel.RUN_ROW)
+    asked["scale"], asked["restitution"], asked["angle"] = runs.amplitude, runs.restitution, 0.0
+    asked["critical_angle"] = runs.critical_angle
+    durations, places = np.unique(runs.duration, return_inverse=True)
+    for number, duration in enumerate(durations.tolist()):
+        own = np.flatnonzero(places == number)
+        base = Pulse(runs.kind, amplitude=1.0, duration=duration).samples
+        p = sampled(base, full=runs.full)
+        part = np.empty(own.size, ends.ENDING_ROW)
+        if not kernel.run_batch(p, asked[own], True, part, stop):
+            return False
+        rows[own] = part
+    return True
+
+
+WITH_PEAK = {"with_peak": 1}
+
+
+class BlockEndings:
+    """Measurement of the ends at points of size and slenderness, with the results of `rocking_spectrum`.
+
+    Blocks are uniform rectangles with Housner's restitution. They start at rest.
+
+    Parameters
+    ----------
+    base : GroundMotion or Pulse
+        Base motion in SI units.
+    scale : float
+        Factor of the base motion.
+    model : {"slender", "full"}
+        Equation of motion.
+    """
+
+    def __init__(self, base: GroundMotion | Pulse, scale: float, model: str) -> None:
+        self.scale = scale
+        self.pulse = base if isinstance(base, Pulse) and base.cosine is not None else None
+        motion = base if isinstance(base, GroundMotion) else _samples(base)
+        given = {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "scale": scale}
+        self.asked = motion_question(RecordSet(motion), given, intensity="scale", model=model)
+
+    def at(self, size: np.ndarray, slenderness: np.ndarray, stop: np.ndarray) -> Arrays | None:
+        """Return outcome, certified, peak, margin and impacts at n points; None if another thread sets `stop` (1,).
+
+        Neighbouring points of equal size share the tables of the base motion.
+        """
+        runs = self.asked.inputs({"size": size, "slenderness": slenderness})
+        if self.pulse is None:
+            return endings_of_runs(runs, WITH_PEAK, stop)
+        assert self.pulse.cosine is not None
+        turns, phase = self.pulse.cosine
+        asked, rows = (
+            np.empty(size.size, finite_runs.PULSE_ROW),
+            np.empty(size.size, ends.ENDING_ROW),
+        )
+        asked["amplitude"] = runs.factor * abs(self.pulse.amplitude)
+        asked["duration"] = runs.frequency_parameter * self.pulse.duration
+        asked["frequency"] = 2 * math.pi * turns / asked["duration"]
+        asked["phase"] = phase if self.pulse.amplitude >= 0 else phase + math.pi
+        asked["restitution"], asked["critical_angle"] = runs.restitution, runs.slenderness
+        kind = a_pulse(full=runs.full)
+        done = finite_runs.run_pulses(kind, asked, True, rows, stop)
+        return answers(rows, with_peak=True, assessed=not runs.full) if done else None
+
+
+def _samples(pulse: Pulse) -> GroundMotion:
+    """Return the samples of a pulse of straight lines or of a Ricker pulse; of a sine or cosine, a motion without use."""
+    if pulse.cosine is not None:
+        return GroundMotion([0.0], step=1.0)
+    forcing = pulse.samples
+    return GroundMotion(pulse.amplitude * forcing.values, step=forcing.step, name=pulse.kind)

@@ -1,1 +1,0 @@
-"""Run of a survey: cost estimate, progress and the loop over its tiles."""

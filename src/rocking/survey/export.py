@@ -1,0 +1,115 @@
+"""Export of a survey of any size in parts: counts, tables and netCDF."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.model.files import check_writable, replacing_hdf5
+from rocking.model.verdict import Kind
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+PER_PERIOD = ("impacts_per_period", "brace_hits_per_period")
+COUNTS = ("response_period", *PER_PERIOD, "transient")
+"""Variables with integers that stand for an absent number."""
+AT_ONCE = 1 << 20
+"""Approximate number of points in memory at a time."""
+
+
+def parts(found: xr.Dataset) -> Iterator[xr.Dataset]:
+    """Yield the dataset in parts along its first axis, each in memory."""
+    first = next(iter(found.data_vars.values())).dims[0]
+    count = found.sizes[first]
+    step = max(AT_ONCE * count // math.prod(found.sizes.values()), 1)
+    for begin in range(0, count, step):
+        yield found.isel({first: slice(begin, begin + step)}).load()
+
+
+def counts(found: xr.Dataset, name: str) -> dict[str, int]:
+    """Return the number of points with each flag of a variable, by the meaning of the flag."""
+    meanings = flags(found[name].attrs)
+    total = np.zeros(256, np.int64)
+    for part in parts(found[[name]]):
+        total += np.bincount(part[name].values.ravel(), minlength=256)
+    return {meaning: int(total[value]) for value, meaning in meanings.items()}
+
+
+def flags(metadata: Mapping[str, Any]) -> dict[int, str]:
+    """Return the meanings of the values of a variable from its attributes."""
+    return dict(
+        zip(np.asarray(metadata["flag_values"]).tolist(), metadata["flag_meanings"].split(), strict=True)
+    )
+
+
+def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
+    """Yield tables (columns by name) of the dataset in parts: the axes, then all variables, flags as words.
+
+    Absent counts are NaN, and infinitely many events infinity, where the integers of the dataset are -1 or 0.
+    """
+    words = {
+        name: np.array([flags(found[name].attrs).get(value, "") for value in range(256)])
+        for name in map(str, found.data_vars)
+        if "flag_values" in found[name].attrs
+    }
+    for part in parts(found):
+        dimensions = next(iter(part.data_vars.values())).dims
+        grids = np.meshgrid(*(part[name].values for name in dimensions), indexing="ij")
+        table = {str(name): grid.ravel() for name, grid in zip(dimensions, grids, strict=True)}
+        for name in map(str, part.data_vars):
+            values = part[name].values.ravel()
+            table[name] = words[name][values] if name in words else values
+        yield table | {name: _count(name, table) for name in COUNTS if name in table}
+
+
+def _count(name: str, table: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Return a column of counts as Python numbers: integers, NaN if absent, and infinity."""
+    values = table[name]
+    column = values.astype(object)
+    column[values < (1 if name == "response_period" else 0)] = math.nan
+    if name in PER_PERIOD:
+        column[(values == -1) & (table["kind"] == str(Kind.PERIODIC))] = math.inf
+    return column
+
+
+def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
+    """Write a dataset of any size to a netCDF file, completely or not at all."""
+    target = check_writable("path", path, (".nc",))
+    import h5netcdf
+
+    with replacing_hdf5(target) as opened, h5netcdf.File(opened, "w") as file:
+        file.dimensions = {str(name): size for name, size in found.sizes.items()}
+        file.attrs.update(_plain(found.attrs))
+        for name, variable in found.variables.items():
+            made = file.create_variable(str(name), variable.dims, variable.dtype, fillvalue=None)
+            made.attrs.update(_plain(variable.attrs, variable.dtype))
+            beside = [
+                str(each)
+                for each in found.coords
+                if each not in found.dims and set(found[each].dims) <= set(variable.dims)
+            ]
+            if name in found.data_vars and beside:
+                made.attrs["coordinates"] = " ".join(beside)
+            if name in found.coords:
+                made[:] = variable.values
+        begin = 0
+        for part in parts(found):
+            first = next(iter(part.data_vars.values())).dims[0]
+            end = begin + part.sizes[first]
+            for name in part.data_vars:
+                file[str(name)][begin:end] = part[name].values
+            begin = end
+
+
+def _plain(metadata: dict[Any, Any], dtype: Any = None) -> dict[str, Any]:
+    """Convert attributes for netCDF; flags get the type of their variable."""
+    return {
+        str(name): np.asarray(value, dtype) if isinstance(value, list | np.ndarray) else value
+        for name, value in metadata.items()
+    }

@@ -1,1 +1,0 @@
-"""Measurements at the points of a survey."""

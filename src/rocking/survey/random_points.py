@@ -1,0 +1,209 @@
+"""Points that do not lie on a grid: random numbers, perturbed inputs, and samples of an uncertain block."""
+
+from __future__ import annotations
+
+from concurrent.futures import CancelledError, Executor
+from hashlib import sha256
+from typing import Any
+
+import numpy as np
+from attrs import field, frozen
+
+from rocking.model.block import Block
+from rocking.model.block_formulas import GRAVITY, frequency_parameter
+from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.progress import Bar
+from rocking.model.record_set import RecordSet
+from rocking.model.system import RANGES
+from rocking.model.validation import Refusal, Text, WrongType, instance, reals, whole
+from rocking.survey.measurement import Arrays, Measurement
+from rocking.survey.run_survey import count_when_done, engine
+from rocking.survey.spec import SYSTEM, MotionSpec, Points, Runs, Values
+
+AT_ONCE = 2048
+"""Points per batch."""
+MAX_SAMPLES = 10_000_000
+MAX_SEED = 2**32 - 1
+
+
+def sampled(
+    points: Points, measure: Measurement, executor: Executor | None = None, shown_as: str = ""
+) -> Arrays:
+    """Return the results of a measurement at points, in their order; with a progress bar if they are ``shown_as`` something."""
+    if executor is not None:
+        instance("executor", executor, Executor)
+    total = len(points.systems)
+    with engine(executor) as (pool, stop), Bar(total, shown_as, shown=bool(shown_as)) as bar:
+        futures = []
+        try:
+            for first in range(0, total, AT_ONCE):
+                part = Points(*(array[first : first + AT_ONCE] for array in points))
+                futures.append(pool.submit(measure.judge, part, measure.options, stop))
+                count_when_done(bar, futures[-1], len(part.systems))
+            answers = [result for future in futures if (result := future.result()) is not None]
+        finally:
+            for future in futures:
+                future.cancel()
+    if len(answers) < len(futures):
+        raise CancelledError("the survey was stopped")
+    return {name: np.concatenate([each[name] for each in answers]) for name in answers[0]}
+
+
+def generator(seed: int) -> np.random.Generator:
+    """Return a random number generator; equal seeds give equal numbers."""
+    return np.random.default_rng(whole("seed", seed, 0, MAX_SEED))
+
+
+def span(name: str, values: Any, widest: tuple[float, float] | None = None) -> tuple[float, float]:
+    """Check a range (low, high) of random numbers: low < high, both within the range of the quantity."""
+    low, high = widest or RANGES[name]
+    allowed = f"be a pair (low, high) in [{low:.6g}, {high:.6g}] with low < high"
+    try:
+        pair = np.asarray(reals(name, values))
+    except TypeError:
+        raise WrongType(name, allowed, values) from None
+    if pair.shape != (2,):
+        raise Refusal(name, allowed, Text(_kind_of(pair)))
+    if not low <= pair[0] < pair[1] <= high:
+        raise Refusal(name, allowed, tuple(pair.tolist()))
+    return float(pair[0]), float(pair[1])
+
+
+def _kind_of(array: np.ndarray) -> str:
+    return f"the number {array.item():.6g}" if array.ndim == 0 else f"an array of shape {array.shape}"
+
+
+TITLE = "Repeatability of the response of a free-standing block on a shaking base"
+MAX_RELATIVE = 0.5
+INPUTS = 5
+"""Number of perturbed inputs: A, T, e and the initial Θ and Θ'."""
+
+
+def spread(count: int) -> np.ndarray:
+    """Return points (count, INPUTS) that are evenly spread over [-1, 1].
+
+    They are multiples, modulo one, of powers of the root of g⁶ = g + 1.
+    """
+    root = 1.0
+    for _ in range(60):
+        root = (1.0 + root) ** (1.0 / (INPUTS + 1))
+    steps = root ** -np.arange(1.0, INPUTS + 1)
+    return 2.0 * ((0.5 + np.arange(count)[:, None] * steps) % 1.0) - 1.0
+
+
+def perturbed(meant: Points, units: np.ndarray, off: float) -> Points:
+    """Return n points whose A, T, e, Θ and Θ' deviate by the fraction `off` times `units` (n, INPUTS) in [-1, 1]."""
+    factors = 1.0 + off * units
+    systems, starts = meant.systems.copy(), meant.starts.copy()
+    place = {name: k for k, name in enumerate(SYSTEM)}
+    amplitude, period, restitution = (
+        systems[:, place[name]] for name in ("amplitude", "period", "restitution")
+    )
+    np.minimum(amplitude * factors[:, 0], MAX_AMPLITUDE, out=amplitude)
+    np.clip(period * factors[:, 1], *PERIODS, out=period)
+    systems[:, place["frequency"]] = 2.0 * np.pi / period
+    # uniform over the part of the range that is possible
+    low, high = restitution * (1.0 - off), np.minimum(restitution * (1.0 + off), 1.0)
+    restitution[:] = 0.5 * (low + high) + 0.5 * (high - low) * units[:, 2]
+    reach = systems[:, place["brace_angle"]]
+    starts[:, 0] = np.clip(starts[:, 0] * factors[:, 3], -reach, reach)
+    starts[:, 1] *= factors[:, 4]
+    return Points(systems, starts)
+
+
+@frozen(eq=False)
+class UncertainMotionSpec(MotionSpec):
+    """Survey of ground motions with a further axis `sample`, the number of the sample of the block.
+
+    Levels that compare the ground motion with a block refer to the nominal block.
+    """
+
+    drawn: np.ndarray = field(kw_only=True)  # (records, samples, 3): size, slenderness, restitution
+    stated: dict[str, float] = field(kw_only=True)
+
+    def inputs(self, values: Values) -> Runs:
+        """Return the runs at n points."""
+        count = next(iter(values.values())).size
+        given = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
+        record = given["record"].astype(int)
+        own = dict(
+            zip(
+                ("size", "slenderness", "restitution"),
+                self.drawn[record, given["sample"].astype(int)].T,
+                strict=True,
+            )
+        )
+        runs = super().inputs({name: each for name, each in values.items() if name != "sample"} | own)
+        nominal = (
+            frequency_parameter(self.fixed["size"], self.fixed["inertia_ratio"]),
+            self.fixed["slenderness"],
+        )
+        levels = np.array([self.intensities[number] for number in record.tolist()])
+        factor = self.measure.factor(given["scale"], levels, *nominal) * given["polarity"]
+        return runs._replace(factor=factor / (GRAVITY * own["slenderness"]))
+
+    def described(self) -> dict[str, Any]:
+        """Return the quantities that do not vary, by name, and the spreads."""
+        return super().described() | self.stated
+
+    def coordinate(self, name: str) -> dict[str, str]:
+        """Return the attributes of a coordinate."""
+        if name == "sample":
+            return {"long_name": "number of the sample of the block, from 0"}
+        return super().coordinate(name)
+
+
+def block_samples(
+    records: RecordSet, block: Block, samples: int, spreads: tuple[float, float, float], seed: int
+) -> np.ndarray:
+    """Return size, slenderness and restitution of the samples of each record, shape (records, samples, 3).
+
+    The samples of a record are a Latin hypercube of their own, which depends on the seed and on the record only. Height and
+    width are lognormal. The restitution is uniform about the nominal value, or about Housner's value of the sample.
+    """
+    return np.array([_of_record(motion, block, samples, spreads, seed) for motion in records])
+
+
+def _of_record(
+    motion: GroundMotion, block: Block, samples: int, spreads: tuple[float, float, float], seed: int
+) -> np.ndarray:
+    from scipy.special import ndtri
+
+    random = np.random.default_rng([seed, int(fingerprint(motion)[:16], 16)])
+    strata = random.permuted(np.tile(np.arange(samples), (3, 1)), axis=1)
+    places = (strata + random.random((3, samples))) / samples
+    places = np.clip(places, 1e-9, 1.0 - 1e-9)
+    height = block.height * np.exp(spreads[0] * ndtri(places[0]))
+    width = block.width * np.exp(spreads[1] * ndtri(places[1]))
+    found = []
+    for number, deviation in enumerate((spreads[2] * (2.0 * places[2] - 1.0)).tolist()):
+        given = None if block.has_housner_restitution else block.restitution
+        each = Block(float(height[number]), float(width[number]), given, block.inertia_ratio)
+        found.append((each.radius, each.critical_angle, min(max(each.restitution + deviation, 0.0), 1.0)))
+    return np.array(found)
+
+
+def fingerprint(motion: GroundMotion) -> str:
+    """Return a digest of step and samples, the same for a motion, its scaled copies and its mirror image."""
+    base = motion.normalised(1.0, 1.0)
+    values = np.asarray(base.values, dtype=float)
+    moving = np.flatnonzero(values)
+    sign = np.sign(values[moving[0]]) if moving.size else 1.0
+    return sha256(
+        np.float64(base.step).tobytes() + np.ascontiguousarray(sign * values + 0.0).tobytes()
+    ).hexdigest()
+
+
+def fingerprints(records: RecordSet) -> tuple[str, ...]:
+    """Return the digest of each record; ValueError if a record occurs twice, because copies are not independent."""
+    seen: dict[str, str] = {}
+    for name, motion in zip(records.names, records, strict=True):
+        mark = fingerprint(motion)
+        if mark in seen:
+            allowed = "hold independent motions"
+            found = f"{name}, the same as {seen[mark]}"
+            remedy = "leave one out: a copy, scaled or reversed, says nothing new"
+            raise Refusal("records", allowed, found, remedy)
+        seen[mark] = name
+    return tuple(seen)

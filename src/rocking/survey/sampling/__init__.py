@@ -1,1 +1,0 @@
-"""Points of a survey that do not lie on a grid."""

@@ -1,0 +1,258 @@
+"""Fractions: of chaotic responses among random systems, and of periodic responses of a map that can be proved."""
+
+from __future__ import annotations
+
+from collections import Counter
+from concurrent.futures import Executor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.kernels.classify import verdict_record as kernel
+from rocking.model.forcing import Harmonic
+from rocking.model.proof import ProvedShare
+from rocking.model.share import Share
+from rocking.model.survey_results import ChaosShare
+from rocking.model.system import NO_BRACES, RANGES, Braces, State, System, check_below_flat
+from rocking.model.validation import Refusal, WrongType, real, whole, within
+from rocking.model.verdict import Kind
+from rocking.proof.prove import check_provable
+from rocking.response.classify import KINDS, classify
+from rocking.survey.memory import attributes
+from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
+from rocking.survey.spec import HarmonicSpec, check_quantity, coordinate, points
+from rocking.survey.verdict_measures import interval_variables, outcome
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+
+TITLE = "Share of chaotic responses of a free-standing block on a shaking base"
+
+
+def chaos_share(
+    *,
+    restitution: Any,
+    period: Any = (0.2, 3.0),
+    amplitude: Any = (0.0, 16.0),
+    brace_angle: float | None = None,
+    brace_restitution: float = 1.0,
+    critical_angle: float | None = None,
+    samples: int = 3_000,
+    seed: int = 0,
+    max_cycles: int = 20_000,
+    max_period: int = 64,
+    executor: Executor | None = None,
+) -> ChaosShare:
+    """Estimate the fraction of chaotic responses from rest over the restitution, for random periods and amplitudes.
+
+    Parameters
+    ----------
+    restitution : float or array (n,)
+        Coefficient of restitution e in [0, 1]; an array is ascending.
+    period, amplitude : pair
+        Ranges (low, high) of the forcing period T and the amplitude A, which are uniformly distributed.
+        Default: (0.2, 3) and (0, 16).
+    brace_angle, brace_restitution : float
+        As in `Braces`. Default: no braces.
+    critical_angle : float, optional
+        As in `System`. Default: None, slender blocks.
+    samples : int
+        Number of responses at each restitution, in [1, 10⁷], with independent samples. Default: 3,000.
+    seed : int
+        Random seed in [0, 2³² − 1]. Default: 0.
+    max_cycles, max_period : int
+        As in `classify`. A response is classified as chaotic after 10⁴ cycles at the earliest (with braces 10⁵).
+        Default: 20,000 and 64.
+    executor : concurrent.futures.Executor, optional
+        Executor that runs the computation. Default: threads on all cores.
+
+    Returns
+    -------
+    ChaosShare
+        `.dataset` and `.shares`; `print` shows one line.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument has the wrong type or lies outside its range.
+
+    See Also
+    --------
+    classify : Classify one response.
+    parametric_map : Classify every point of a grid.
+    rocking.plot.chaos_share : Plot the fractions.
+
+    Notes
+    -----
+    The intervals are Wilson's at 95 %. Their upper ends assume that all undetermined responses are chaotic.
+    Not guaranteed: that a chaotic response is an attractor. A longer run may show a chaotic transient.
+
+    There is no store: a thousand responses take seconds, and the same seed reproduces them.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = rk.chaos_share(restitution=[0.5, 0.9], samples=20)
+    >>> found.dataset.share.dims
+    ('restitution', 'response')
+    """
+    measure = outcome(max_cycles, max_period, TITLE)
+    values = np.atleast_1d(check_quantity("restitution", restitution))
+    spans = {"period": span("period", period), "amplitude": span("amplitude", amplitude)}
+    fixed = {}
+    if brace_angle is not None:
+        given = {"brace_angle": brace_angle, "brace_restitution": brace_restitution}
+        fixed = {name: within(name, value, *RANGES[name]) for name, value in given.items()}
+    elif real("brace_restitution", brace_restitution) != 1.0:
+        raise WrongType("brace_restitution", "be used with {brace_angle}", brace_restitution)
+    if critical_angle is not None:
+        fixed["critical_angle"] = float(check_quantity("critical_angle", critical_angle))
+        if brace_angle is not None:
+            check_below_flat(fixed["brace_angle"], fixed["critical_angle"])
+    count = whole("samples", samples, 1, MAX_SAMPLES)
+    random = generator(seed)
+    counts = []
+    for each in values.tolist():
+        drawn = {name: random.uniform(*ends, count) for name, ends in spans.items()}
+        kinds = sampled(points(drawn, {"restitution": each, **fixed}), measure, executor)["kind"]
+        counts.append(np.bincount(kinds, minlength=len(KINDS)))
+    return _summed_up(values, spans, fixed, measure, np.array(counts), seed)
+
+
+def _summed_up(
+    restitutions: np.ndarray,
+    spans: dict[str, tuple[float, float]],
+    fixed: Any,
+    measure: Any,
+    counts: np.ndarray,
+    seed: int,
+) -> ChaosShare:
+    import xarray as xr
+
+    of = int(counts[0].sum())
+    shares = tuple(Share(each[kernel.CHAOTIC], of, each[kernel.UNDETERMINED]) for each in counts)
+    variables: dict[str, Any] = dict(
+        interval_variables("chaotic", shares, "restitution", "fraction of chaotic responses")
+    )
+    variables["share"] = (
+        ("restitution", "response"),
+        counts / of,
+        {"long_name": "fraction of the responses of each kind", "units": "1"},
+    )
+    coordinates = {
+        "restitution": ("restitution", restitutions, coordinate("restitution")),
+        "response": ("response", [str(kind) for kind in KINDS], {"long_name": "kind of response"}),
+    }
+    metadata = attributes(HarmonicSpec({}, dict(fixed)), measure) | {
+        "samples": of,
+        "seed": seed,
+        **{f"{name}_range": list(ends) for name, ends in spans.items()},
+    }
+    return ChaosShare(xr.Dataset(variables, coordinates, metadata), shares)
+
+
+MAX_POINTS = 100_000
+QUANTITIES = (
+    "amplitude",
+    "period",
+    "frequency",
+    "phase",
+    "restitution",
+    "brace_angle",
+    "brace_restitution",
+    "critical_angle",
+    "angle",
+    "velocity",
+)
+"""Quantities of a map, as attributes or as coordinates."""
+
+
+def proved_share(found: Dataset, points: int = 300, seed: int = 0) -> ProvedShare:
+    """Prove a random sample of the periodic responses of a map in ball arithmetic.
+
+    Each response of the sample is classified again, with the proof of its orbit and of its initial state (`classify`).
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        Map of slender blocks, from `parametric_map`.
+    points : int
+        Number of periodic responses of the sample, in [1, 100,000]; all of them if there are fewer. A proof takes some
+        milliseconds to seconds. Default: 300.
+    seed : int
+        Random seed in [0, 2³² − 1]. Default: 0.
+
+    Returns
+    -------
+    ProvedShare
+        Fractions of proved orbits and of proved initial states, with the reasons of all refusals.
+
+    Raises
+    ------
+    ImportError
+        If python-flint is not installed.
+    TypeError, ValueError
+        If an argument is of the wrong type or outside its range, or if no response is periodic. Also if the blocks are not
+        slender.
+
+    See Also
+    --------
+    prove : Prove one orbit.
+    parametric_map : Classify every point of a grid.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> found = rk.parametric_map(amplitude=np.linspace(2, 6, 5), period=[0.5, 1.0], restitution=0.925)
+    >>> shares = rk.proved_share(found)
+    >>> shares.orbits.count == shares.orbits.of
+    True
+    """
+    from xarray import Dataset
+
+    points = whole("points", points, 1, MAX_POINTS)
+    random = generator(seed)
+    if not isinstance(found, Dataset) or "kind" not in found:
+        raise WrongType("found", "be a map of responses", found)
+    periodic = found["kind"] == Kind.PERIODIC.code
+    places = np.argwhere(periodic.values)
+    if not len(places):
+        raise Refusal("found", "have periodic responses; the map has none")
+    chosen = places[np.sort(random.choice(len(places), min(points, len(places)), replace=False))]
+    orbits, starts, reasons = 0, 0, Counter[str]()
+    for place in chosen:
+        system, start = _point(found, dict(zip(periodic.dims, place, strict=True)))
+        check_provable(system)
+        verdict = classify(
+            system, start, int(found.attrs["max_cycles"]), int(found.attrs["max_period"]), prove=True
+        )
+        proof = None if verdict.orbit is None else verdict.orbit.proof
+        orbits += proof is not None and proof.proved
+        starts += proof is not None and bool(proof.starts)
+        if proof is None:
+            reasons[f"the response is {verdict.kind} when it is classified again"] += 1
+        elif not proof.starts:
+            reasons[proof.claim.rpartition(": ")[2]] += 1
+    return ProvedShare(Share(orbits, len(chosen)), Share(starts, len(chosen)), dict(reasons.most_common()))
+
+
+def _point(found: Dataset, place: dict[Any, int]) -> tuple[System, State]:
+    """Return the system and the initial state at a point of a map."""
+    here = found.isel(place)
+    given: dict[str, float] = {"phase": 0.0, "angle": 0.0, "velocity": 0.0, **NO_BRACES}
+    for name in QUANTITIES:
+        if name in here.coords:
+            given[name] = float(here.coords[name])
+        elif name in found.attrs:
+            given[name] = float(found.attrs[name])
+    clock = {name: given[name] for name in ("period", "frequency") if name in given}
+    forcing = Harmonic(given["amplitude"], phase=given["phase"], **clock)
+    braces = (
+        Braces(given["brace_angle"], given["brace_restitution"])
+        if np.isfinite(given["brace_angle"])
+        else None
+    )
+    system = System(forcing, given["restitution"], braces, given.get("critical_angle", 0.0) or None)
+    return system, State(given["angle"], given["velocity"])

@@ -1,1 +1,0 @@
-"""Results of a survey: in memory, in a Zarr store, or exported."""
