@@ -45,7 +45,6 @@ LINES = {
 }
 """A cheap run of each command, of a block that is too tall and not slender."""
 SOURCE = {command: "push.csv" for command in LINES if {"file", "sources"} & set(COMMANDS[command])}
-PREFIX = {"spectrum": "rocking_"}
 FILES = {"plot": "a.svg", "animate": "a.gif", "csv": "a1.csv", "netcdf": "a.nc"}
 
 
@@ -226,7 +225,7 @@ def test_no_record_is_overwritten(rocking, monkeypatch, command):
     computes = (
         "motion.simulate"
         if command == "record"
-        else f"survey.{PREFIX.get(command, '')}{command.replace('-', '_')}"
+        else "survey." + {"spectrum": "spectra"}.get(command, command.replace("-", "_"))
     )
     monkeypatch.setattr(f"rocking.{computes}", None)
     Path("set").mkdir()

@@ -141,7 +141,7 @@ def test_notebook_shows_the_picture_over_the_sentence():
     assert image.format == "PNG"
     assert np.asarray(image.convert("L")).std() > 10
     assert "overturning is certain from τ = 10.3092, after 4 impacts" in html
-    assert base64.b64decode(encoded) == picture(untitled)(verdict)
+    assert base64.b64decode(encoded) == picture(lambda: untitled(verdict))
     assert untitled(verdict).get_suptitle() == ""  # the sentence is below the picture, and not in it, too
     assert rk.plot.verdict(verdict).get_suptitle().startswith("overturn")
 

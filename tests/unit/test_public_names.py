@@ -34,10 +34,12 @@ def loaded_after(code):
     return set(json.loads(done.stderr.splitlines()[-1]))
 
 
-def test_importing_the_package_loads_nothing_else():
-    loaded = loaded_after("import rocking")
+@pytest.mark.parametrize("package", ["rocking", "rocking.plot"])
+def test_importing_a_package_of_public_names_loads_the_table_of_names_alone(package):
+    loaded = loaded_after(f"import {package}")
     assert not HEAVY & loaded
-    assert {name for name in loaded if name.startswith("rocking")} == {"rocking"}
+    names = {name for name in loaded if name.startswith("rocking")}
+    assert names == {"rocking", "rocking.model", "rocking.model.public_names", package}
 
 
 def test_a_value_loads_no_kernel_and_no_picture():

@@ -11,7 +11,7 @@ from attrs import field, frozen
 from rocking.model.block import Block
 from rocking.model.ground_motion import MAX_FACTOR, GroundMotion
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
-from rocking.model.result import NotebookPicture
+from rocking.model.result import Result
 from rocking.model.text import counted, percent, percent_with_ends
 from rocking.model.validation import Refusal, TooShort, real, reals, refuse_if, whole, within
 from rocking.model.verdict import Outcome
@@ -100,7 +100,7 @@ def _with_ends(value: float, low: float, high: float, unit: str = "") -> str:
 
 
 @frozen(eq=False)
-class Fragility(NotebookPicture):
+class Fragility(Result):
     """Probability that a block exceeds limits, over the intensity of the ground motion; returned by `fragility`.
 
     Attributes
@@ -128,6 +128,8 @@ class Fragility(NotebookPicture):
     >>> found.dataset.fraction.dims, found.fit().limit
     (('limit', 'scale'), inf)
     """
+
+    PLOT = "fragility"
 
     dataset: xr.Dataset = field(repr=False)
     block: Block
@@ -187,7 +189,7 @@ ROUNDING = 1e-9
 
 
 @frozen(eq=False)
-class IncrementalDynamicAnalysis(NotebookPicture):
+class IncrementalDynamicAnalysis(Result):
     """Peak of a block over the intensity of each ground motion; returned by `incremental_dynamic_analysis`.
 
     Attributes
@@ -206,6 +208,8 @@ class IncrementalDynamicAnalysis(NotebookPicture):
     >>> found.fractiles().sizes["fractile"], bool(found.fractiles([0.5]).isel(scale=-1).item() == float("inf"))
     (3, True)
     """
+
+    PLOT = "incremental_dynamic_analysis"
 
     dataset: xr.Dataset = field(repr=False)
     block: Block
@@ -313,7 +317,7 @@ def intervals_of(begins_overturned: bool, switches: np.ndarray, low: float, high
 
 
 @frozen(eq=False)
-class OverturningSet(NotebookPicture):
+class OverturningSet(Result):
     """Levels of an intensity measure at which ground motions overturn a block; returned by `overturning_set`.
 
     Attributes
@@ -335,6 +339,8 @@ class OverturningSet(NotebookPicture):
     1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.6 % of the range overturns; lowest found 0.373175 g.
     Intervals and gaps narrower than 0.1 g may be missed
     """
+
+    PLOT = "overturning_set"
 
     dataset: xr.Dataset = field(repr=False)
     records: RecordSet

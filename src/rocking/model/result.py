@@ -6,7 +6,8 @@ import html as markup
 from base64 import b64encode
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from importlib import import_module
+from typing import Any, ClassVar
 
 import attrs
 import numpy as np
@@ -49,60 +50,37 @@ def described(what: str) -> dict[str, object]:
     }
 
 
-Draw = Callable[[Any], bytes]
-
-_draws: dict[type | str, Draw] = {}
-_fills: list[Callable[[], object]] = []
-
-
-def register(kind: type | str, draw: Draw) -> None:
-    """Register the function that draws results of this kind as PNG.
-
-    Parameters
-    ----------
-    kind : type or str
-        Type of the results, or the name passed to `html` as `kind`.
-    draw : callable
-        Function of a result that returns the bytes of a PNG file.
-    """
-    _draws[kind] = draw
-
-
-def fill_at_first_use(fill: Callable[[], object]) -> None:
-    """Set the function that registers all renderers; it runs once, when the first result is shown."""
-    _fills[:] = [fill]
-
-
-def html(result: object, kind: str | None = None, line: str | None = None) -> str | None:
-    """Return the figure of a result above its one-line text, for `_repr_html_`.
-
-    Parameters
-    ----------
-    result : object
-        Result to show.
-    kind, line : str, optional
-        Registered name and text of a result whose type is defined elsewhere, such as an `xarray.Dataset`.
-        Default: the type and the string of `result`.
-
-    Returns
-    -------
-    str or None
-        HTML; None if no renderer is registered, so that the notebook prints the text.
-    """
-    while _fills:
-        _fills.pop()()
-    draw = _draws.get(kind or type(result))
-    if draw is None:
-        return None
-    picture = b64encode(draw(result)).decode()
-    line = markup.escape(line or str(result))
+def html(draw: Callable[[], Any], line: str) -> str:
+    """Return a figure above a line of text, for `_repr_html_`; `draw` makes the figure."""
+    png: bytes = import_module("rocking.plot.figures").picture(draw)
+    line = markup.escape(line)
+    picture = b64encode(png).decode()
     return f'<figure><img alt="{line}" src="data:image/png;base64,{picture}"><figcaption>{line}</figcaption></figure>'
 
 
-class NotebookPicture:
-    """Base class of results that a notebook shows as a figure."""
+class Result:
+    """Base class of results: a figure, which a notebook shows above the text of the result."""
 
     __slots__ = ()
 
+    PLOT: ClassVar[str]
+    """Name of the function of `rocking.plot` that draws results of the class."""
+
+    def plot(self, *arguments: Any, **options: Any) -> Any:
+        """Draw the result by its function of `rocking.plot`, with its further arguments; return what this returns.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> motion = rk.simulate(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), cycles=3)
+        >>> len(motion.plot().axes)
+        2
+        """
+        return getattr(import_module("rocking.plot"), self.PLOT)(self, *arguments, **options)
+
+    def _figure(self) -> Any:
+        """Return the figure, or its axes, that a notebook shows."""
+        return self.plot()
+
     def _repr_html_(self) -> str | None:
-        return html(self)
+        return html(self._figure, str(self))

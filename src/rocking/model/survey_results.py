@@ -8,7 +8,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model.orbit import Orbit
-from rocking.model.result import NotebookPicture
+from rocking.model.result import Result
 from rocking.model.share import Share
 from rocking.model.system import State, System
 from rocking.model.verdict import Kind, Verdict
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class SafeBasin(NotebookPicture):
+class SafeBasin(Result):
     """Safe fraction of initial states as a function of the amplitude; returned by `safe_basin`.
 
     Attributes
@@ -41,6 +41,8 @@ class SafeBasin(NotebookPicture):
     (100, True)
     """
 
+    PLOT = "safe_basin"
+
     dataset: xr.Dataset = field(repr=False)
     shares: tuple[Share, ...]
     heteroclinic_amplitude: float
@@ -60,7 +62,7 @@ class SafeBasin(NotebookPicture):
 
 
 @frozen(eq=False)
-class OverturningCurve(NotebookPicture):
+class OverturningCurve(Result):
     """Lowest amplitude that overturns a block initially at rest; returned by `overturning_amplitude`.
 
     Attributes
@@ -84,6 +86,8 @@ class OverturningCurve(NotebookPicture):
     no overturning from rest at 2 amplitudes from 0.5 to 1 and 2 phases
     """
 
+    PLOT = "overturning"
+
     dataset: xr.Dataset = field(repr=False)
 
     def __str__(self) -> str:
@@ -104,7 +108,7 @@ class OverturningCurve(NotebookPicture):
 
 
 @frozen(eq=False)
-class ChaosShare(NotebookPicture):
+class ChaosShare(Result):
     """Fraction of chaotic responses over random periods and amplitudes; returned by `chaos_share`.
 
     Attributes
@@ -122,6 +126,8 @@ class ChaosShare(NotebookPicture):
     chaotic fraction: 0 % (0–27.8 %) at e = 0.9, of 10 responses each
     """
 
+    PLOT = "chaos_share"
+
     dataset: xr.Dataset = field(repr=False)
     shares: tuple[Share, ...]
 
@@ -132,7 +138,7 @@ class ChaosShare(NotebookPicture):
 
 
 @frozen
-class Repeatability(NotebookPicture):
+class Repeatability(Result):
     """Outcomes of one experiment whose inputs are slightly uncertain; returned by `repeatability`.
 
     Attributes
@@ -158,6 +164,8 @@ class Repeatability(NotebookPicture):
     True
     """
 
+    PLOT = "repeatability"
+
     system: System
     start: State
     relative: float
@@ -181,7 +189,7 @@ class Repeatability(NotebookPicture):
 
 
 @frozen(eq=False)
-class RepeatabilityMap(NotebookPicture):
+class RepeatabilityMap(Result):
     """Map of the repeatability of outcomes over two quantities; returned by `repeatability_map`.
 
     Attributes
@@ -204,6 +212,8 @@ class RepeatabilityMap(NotebookPicture):
     >>> print(rk.repeatability_map(amplitude=[0.2, 0.5], period=[1.0, 2.0], restitution=0.9, samples=10))
     inputs off by up to 1 %: response type uncertain at 0 % (0–49.0 %), overturning uncertain at 0 % (0–49.0 %), of 4 points
     """
+
+    PLOT = "repeatability_map"
 
     dataset: xr.Dataset = field(repr=False)
     uncertain: Share
@@ -325,7 +335,7 @@ class UncertaintyExponent:
 
 
 @frozen(eq=False)
-class BasinMap(NotebookPicture):
+class BasinMap(Result):
     """Basins of attraction of a system over a grid or a random sample of initial states; returned by `basin_map`.
 
     Attributes
@@ -354,6 +364,8 @@ class BasinMap(NotebookPicture):
     >>> print(rk.basin_map(system, angle=[0.0, 0.1], velocity=[0.0, 0.1], boundary_runs=0))
     4 initial states: rest 50.0 % (15.0–85.0 %), period 1, symmetric 50.0 % (15.0–85.0 %)
     """
+
+    PLOT = "basins"
 
     system: System
     dataset: xr.Dataset = field(repr=False)

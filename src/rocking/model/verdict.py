@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from enum import IntEnum, StrEnum
+from importlib import import_module
+from typing import Any
 
 from attrs import field, frozen
 
 from rocking.model.orbit import Orbit
-from rocking.model.result import NotebookPicture
+from rocking.model.result import Result
 from rocking.model.system import State, System
 
 
@@ -218,7 +220,7 @@ class Evidence:
 
 
 @frozen
-class Verdict(NotebookPicture):
+class Verdict(Result):
     """Response type of a motion, with its evidence; returned by `classify`.
 
     An attribute that does not apply is None. The attributes of an orbit (`period` to `multipliers`, and `orbit`) are given
@@ -272,6 +274,8 @@ class Verdict(NotebookPicture):
     overturned: overturning is certain from τ = 10.3092, after 4 impacts, because the growing ... Evidence: exact, within 6 cycles.
     """
 
+    PLOT = "verdict"
+
     system: System
     start: State
     kind: Kind
@@ -294,6 +298,10 @@ class Verdict(NotebookPicture):
     def superstable(self) -> bool:
         """True if perturbations vanish at rest or in sustained contact with a brace, so that the exponent is −∞."""
         return self.exponent == -math.inf
+
+    def _figure(self) -> Any:
+        """Return the figure without the sentence, which a notebook shows below it."""
+        return import_module("rocking.plot.verdicts").untitled(self)
 
     def __str__(self) -> str:
         return f"{self.kind}: {self.evidence}"

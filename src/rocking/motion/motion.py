@@ -11,7 +11,7 @@ from attrs import frozen
 from rocking.model.block import Block, block_attributes
 from rocking.model.forcing import Harmonic, PiecewiseLinear
 from rocking.model.package import VERSION
-from rocking.model.result import NotebookPicture
+from rocking.model.result import Result
 from rocking.model.system import quantities
 from rocking.model.text import counted
 from rocking.model.validation import instance, refuse_if, within
@@ -283,7 +283,7 @@ def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
 
 
 @frozen(eq=False, slots=False)
-class Motion(Trajectory, NotebookPicture):
+class Motion(Trajectory, Result):
     """Simulated motion of one block; returned by `simulate`.
 
     Attributes
@@ -336,6 +336,8 @@ class Motion(Trajectory, NotebookPicture):
     >>> motion.events["kind"][:2].tolist(), motion.section().shape
     (['impact', 'impact'], (51, 2))
     """
+
+    PLOT = "overview"
 
     def to_xarray(self, step: float | None = None, block: Block | None = None) -> xr.Dataset:
         """Return the motion sampled in time, as a dataset with units.

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.validation import Refusal, instance, one_of, pair, whole
 from rocking.orbits.branch import ENDS, SpecialPoint, chain_at
 from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class BifurcationCurve(ReadOnlyArrays, NotebookPicture):
+class BifurcationCurve(ReadOnlyArrays, Result):
     """Curve of special points of one kind in the plane of two parameters; returned by `bifurcation_curve`.
 
     Attributes
@@ -61,6 +61,8 @@ class BifurcationCurve(ReadOnlyArrays, NotebookPicture):
     >>> curve.to_xarray().sizes["point"] == len(curve)
     True
     """
+
+    PLOT = "bifurcation_curve"
 
     kind: str
     names: tuple[str, str]

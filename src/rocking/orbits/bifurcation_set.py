@@ -10,7 +10,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model.progress import Bar
-from rocking.model.result import NotebookPicture
+from rocking.model.result import Result
 from rocking.model.system import System
 from rocking.model.text import counted
 from rocking.model.validation import WrongType, instance, one_of, whole
@@ -31,7 +31,7 @@ ON_CURVE = 2.0
 
 
 @frozen
-class BifurcationSet(NotebookPicture):
+class BifurcationSet(Result):
     """Curves of special points in the plane of two parameters; returned by `bifurcation_set`.
 
     Attributes
@@ -57,6 +57,8 @@ class BifurcationSet(NotebookPicture):
     >>> [(curve.kind, curve.impacts) for curve in found.curves]
     [('period-doubling', 2), ('symmetry-breaking', 2)]
     """
+
+    PLOT = "bifurcation_set"
 
     system: System
     names: tuple[str, str]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import Orbit, Stability, stability_of
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.validation import WrongType, whole, within
 from rocking.orbits.datasets import of_branch
 from rocking.orbits.event_chain import (
@@ -202,7 +202,7 @@ def chain_at(special: SpecialPoint) -> Chain:
 
 
 @frozen(eq=False)
-class Branch(ReadOnlyArrays, NotebookPicture):
+class Branch(ReadOnlyArrays, Result):
     """Branch of periodic orbits over a parameter; returned by `continue_orbit` and `switch_branch`.
 
     Attributes
@@ -239,6 +239,8 @@ class Branch(ReadOnlyArrays, NotebookPicture):
     >>> branch.symmetric, branch.impacts, branch.ends
     (True, 2, ('end of the range', 'end of the range'))
     """
+
+    PLOT = "branch"
 
     name: str
     period: int

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.text import counted, plus_minus
 from rocking.model.validation import Refusal, instance, whole
 from rocking.orbits.branch import SpecialPoint
@@ -26,7 +26,7 @@ WIDTH = 1.0
 
 
 @frozen(eq=False)
-class Cascade(ReadOnlyArrays, NotebookPicture):
+class Cascade(ReadOnlyArrays, Result):
     """Cascade of period doublings; returned by `cascade`.
 
     Attributes
@@ -46,6 +46,8 @@ class Cascade(ReadOnlyArrays, NotebookPicture):
     >>> found.periods.tolist(), found.ratios.round(2).tolist()
     ([1, 2, 4, 8, 16, 32], [6.8, 4.93, 4.69, 4.67])
     """
+
+    PLOT = "cascade"
 
     special: tuple[SpecialPoint, ...] = field(repr=False)
     end: str

@@ -13,7 +13,7 @@ from attrs import evolve, field, frozen
 
 from rocking.kernels.classify import attractor_anchor
 from rocking.model.orbit import Orbit, Stability
-from rocking.model.result import NotebookPicture
+from rocking.model.result import Result
 from rocking.model.system import State, System
 from rocking.model.text import counted
 from rocking.model.validation import instance, pair, refuse_if, whole, within
@@ -129,7 +129,7 @@ PLASTIC = 1.324717957244746
 
 
 @frozen(eq=False)
-class Orbits(Sequence[Orbit], NotebookPicture):
+class Orbits(Sequence[Orbit], Result):
     """Periodic orbits found by `find_orbits`: a sequence of `Orbit`, ordered by period, then from stable to unstable.
 
     Attributes
@@ -160,6 +160,8 @@ class Orbits(Sequence[Orbit], NotebookPicture):
     >>> len(found), found.settled, found[0].stable
     (3, True, True)
     """
+
+    PLOT = "orbits"
 
     system: System
     max_period: int

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.forcing import MAX_AMPLITUDE, Harmonic
 from rocking.model.orbit import Mode, Orbit
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.system import System
 from rocking.model.validation import Refusal, WrongType, exactly_one, reals, refuse_if, whole, within
 from rocking.model.verdict import Kind
@@ -33,7 +33,7 @@ MAX_CYCLES_IN_MODE = 99
 
 
 @frozen(eq=False)
-class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
+class FrequencyResponse(ReadOnlyArrays, Result):
     """Peak rotation over the period or the frequency of the forcing; returned by `frequency_response`.
 
     Attributes
@@ -60,6 +60,8 @@ class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
     >>> found.rest["kind"].tolist(), len(found.of(1))
     (['periodic', 'periodic'], 1)
     """
+
+    PLOT = "frequency_response"
 
     amplitude: float
     restitution: float

@@ -15,7 +15,7 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.orbit import Orbit
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.system import State
 from rocking.model.text import plus_minus
 from rocking.model.validation import Refusal, instance, reals, within
@@ -48,7 +48,7 @@ TRANSIENT, KEPT = 20_000, 4_000
 
 
 @frozen(eq=False)
-class GrazingTransition(ReadOnlyArrays, NotebookPicture):
+class GrazingTransition(ReadOnlyArrays, Result):
     """Transition at a grazing, with its evidence; returned by `grazing_transition`.
 
     Attributes
@@ -87,6 +87,8 @@ class GrazingTransition(ReadOnlyArrays, NotebookPicture):
     >>> found.to_xarray()["orbit_period"].values.tolist()
     [1, 1, 1, 1, 1]
     """
+
+    PLOT = "grazing_transition"
 
     special: SpecialPoint
     orbits: str

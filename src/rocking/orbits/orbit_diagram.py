@@ -16,7 +16,7 @@ from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
 from rocking.model.forcing import MAX_PHASE
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.system import State, System, check_constant_restitution, check_periodic
 from rocking.model.validation import TooManyEvents, check_progress, instance, one_of, whole, within
 from rocking.motion.march_loop import start_march
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
+class OrbitDiagram(ReadOnlyArrays, Result):
     """Section points over the values of a parameter; returned by `orbit_diagram`.
 
     Attributes
@@ -61,6 +61,8 @@ class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
     >>> diagram.points.shape, bool(diagram.overturned.any())
     ((1, 2, 4, 2), False)
     """
+
+    PLOT = "orbit_diagram"
 
     system: System
     parameter: str

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import Orbit
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.system import State
 from rocking.model.validation import Refusal, instance, within
 from rocking.motion.march_loop import monodromy
@@ -48,7 +48,7 @@ SLOWEST = 1.02
 
 
 @frozen(eq=False)
-class OrbitManifolds(ReadOnlyArrays, NotebookPicture):
+class OrbitManifolds(ReadOnlyArrays, Result):
     """Manifolds of a saddle orbit on a section; returned by `orbit_manifolds`.
 
     Attributes
@@ -74,6 +74,8 @@ class OrbitManifolds(ReadOnlyArrays, NotebookPicture):
     >>> manifolds.points.shape, len(manifolds.unstable), len(manifolds.stable)
     ((1, 2), 2, 2)
     """
+
+    PLOT = "orbit_manifolds"
 
     orbit: Orbit
     phase: float

@@ -11,7 +11,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import check_progress, instance, one_of
 from rocking.model.verdict import Kind, Verdict
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class ResponseDiagram(ReadOnlyArrays, NotebookPicture):
+class ResponseDiagram(ReadOnlyArrays, Result):
     """Responses over the values of a parameter; returned by `response_diagram`.
 
     Attributes
@@ -65,6 +65,8 @@ class ResponseDiagram(ReadOnlyArrays, NotebookPicture):
     >>> found.exponent.round(4).tolist(), found.rotation.tolist()
     ([-inf, -0.1559], [0.0, 2.0])
     """
+
+    PLOT = "response_diagram"
 
     system: System
     parameter: str

@@ -18,7 +18,7 @@ from rocking.kernels.march import march
 from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import OrbitEvent
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.system import State, System
 from rocking.model.validation import Refusal, TooManyEvents, instance, refuse_if, whole, within
 from rocking.motion.march_loop import start_march
@@ -215,7 +215,7 @@ class Manifold(ReadOnlyArrays):
 
 
 @frozen(eq=False)
-class SaddleManifolds(ReadOnlyArrays, NotebookPicture):
+class SaddleManifolds(ReadOnlyArrays, Result):
     """Manifolds of both saddle orbits on a section; returned by `saddle_manifolds`.
 
     Attributes
@@ -239,6 +239,8 @@ class SaddleManifolds(ReadOnlyArrays, NotebookPicture):
     >>> manifolds.saddles.shape, len(manifolds.unstable), len(manifolds.stable)
     ((2, 2), 2, 2)
     """
+
+    PLOT = "manifolds"
 
     system: System
     phase: float

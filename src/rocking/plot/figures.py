@@ -70,17 +70,12 @@ def apart() -> Iterator[None]:
         _apart.reset(before)
 
 
-def picture(draw: Callable[[Any], Axes | Figure]) -> Callable[[Any], bytes]:
-    """Return a function that renders a result as the bytes of a PNG, given the function that draws it."""
-
-    def png(result: Any) -> bytes:
-        stream = io.BytesIO()
-        with apart():
-            drawn: Any = draw(result)
-        drawn.figure.savefig(stream, format="png", dpi=DOTS_PER_INCH)
-        return stream.getvalue()
-
-    return png
+def picture(draw: Callable[[], Any]) -> bytes:
+    """Return the PNG of the figure that a function makes, apart from pyplot."""
+    stream = io.BytesIO()
+    with apart():
+        draw().figure.savefig(stream, format="png", dpi=DOTS_PER_INCH)
+    return stream.getvalue()
 
 
 # Without these matplotlib writes the date and its own version into the file.

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.validation import Refusal, Text, TooShort, WrongType, reals, refuse_if
 from rocking.motion.motion import Motion
 
@@ -236,7 +236,7 @@ ROUNDING = 1e-12
 
 
 @frozen(eq=False, slots=False)
-class CorrelationDimension(ReadOnlyArrays, NotebookPicture):
+class CorrelationDimension(ReadOnlyArrays, Result):
     """Correlation dimension of a set of points, with an interval; returned by `correlation_dimension`.
 
     Attributes
@@ -271,6 +271,8 @@ class CorrelationDimension(ReadOnlyArrays, NotebookPicture):
     >>> print(rk.correlation_dimension(motion.section()[1000:]))
     dimension 0 of the section: 3 isolated points, repeated over 2001 points
     """
+
+    PLOT = "correlation_dimension"
 
     value: float
     interval: tuple[float, float]

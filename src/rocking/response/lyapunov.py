@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import evolve, field, frozen
 
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.system import NO_BRACES, State, System, check_periodic, quantities
 from rocking.model.text import counted, plus_minus
 from rocking.model.validation import TooShort, whole
@@ -27,7 +27,7 @@ HISTORY = np.dtype([("cycles", "i8"), ("values", "f8", 2), ("errors", "f8", 2)])
 
 
 @frozen(eq=False, slots=False)
-class LyapunovSpectrum(ReadOnlyArrays, NotebookPicture):
+class LyapunovSpectrum(ReadOnlyArrays, Result):
     """Both Lyapunov exponents of a motion, with errors; returned by `lyapunov`.
 
     Attributes
@@ -63,6 +63,8 @@ class LyapunovSpectrum(ReadOnlyArrays, NotebookPicture):
     >>> bool(abs(spectrum.values[0] - 0.073) < 4 * spectrum.errors[0] < 0.005)
     True
     """
+
+    PLOT = "convergence"
 
     system: System
     start: State

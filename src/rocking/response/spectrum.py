@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.result import NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.system import System, quantities
 from rocking.model.text import counted
 from rocking.model.validation import Refusal, WrongType, instance, refuse_if, whole, within
@@ -66,7 +66,7 @@ class Peak:
 
 
 @frozen(eq=False)
-class SpectralDensity(ReadOnlyArrays, NotebookPicture):
+class SpectralDensity(ReadOnlyArrays, Result):
     """One-sided power spectral density of Θ, in Θ² per (cycle per τ); returned by `spectral_density`.
 
     Attributes
@@ -112,6 +112,8 @@ class SpectralDensity(ReadOnlyArrays, NotebookPicture):
     >>> density.period, density.segments, density.broad_band
     (3, 14, False)
     """
+
+    PLOT = "spectrum"
 
     system: System
     frequency: np.ndarray = field(repr=False, converter=read_only)

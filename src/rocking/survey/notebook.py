@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from rocking.model import result
@@ -11,8 +13,6 @@ from rocking.survey.export import counts
 
 if TYPE_CHECKING:
     import xarray as xr
-
-KIND = "map"
 
 
 def register() -> None:
@@ -34,7 +34,7 @@ def html(found: xr.Dataset) -> str:
         or "flag_meanings" not in found["kind"].attrs
     ):
         return shown
-    return (result.html(found, KIND, line(found)) or "") + shown
+    return result.html(partial(import_module("rocking.plot").parametric_map, found), line(found)) + shown
 
 
 def line(found: xr.Dataset) -> str:

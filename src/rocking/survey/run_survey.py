@@ -76,6 +76,8 @@ class Cost:
 def cost(asked: SurveySpec, measure: Measurement, levels: list[Level], there: int) -> Cost:
     """Estimate the cost of a survey, of which `there` points exist, from a sample of its points."""
     tiles = sum(math.prod(level.tile_counts) for level in levels)
+    if there == asked.points:
+        return Cost(asked.points, tiles, there, 0.0)
     # multiples of the golden section, rounded to integers, spread the sample evenly over the points
     stride = round(GOLDEN * asked.points)
     places = (np.arange(min(PILOTS, asked.points), dtype=object) * stride % asked.points).astype(np.int64)
