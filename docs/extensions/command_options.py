@@ -3,16 +3,15 @@
 from functools import cache
 from typing import NamedTuple
 
-import typer
-
-from rocking.cli import option_names
+from rocking.cli import options as shared_options
 from rocking.cli.app import app
+from rocking.cli.help import described
 
 GROUPS = {
-    "Normalised input": option_names.NORMALISED,
-    "SI input": option_names.SI,
+    "Normalised input": shared_options.NORMALISED,
+    "SI input": shared_options.SI,
     "Impacts, phase and braces": ("restitution", "phase", "brace_angle", "brace_restitution"),
-    "Initial state": option_names.START,
+    "Initial state": shared_options.START,
 }
 REST = "Runs and files"
 AXIS = "|AXIS"  # end of the placeholder of a value that may be an axis
@@ -41,7 +40,7 @@ class Option(NamedTuple):
 @cache
 def commands():
     """Map the name of each command to its definition."""
-    return dict(typer.main.get_command(app).commands)
+    return {name: app.get_command(None, name) for name in app.list_commands(None)}
 
 
 @cache
@@ -50,20 +49,12 @@ def options(command):
     return [
         Option(
             one.name,
-            one.metavar if one.param_type_name == "argument" else ", ".join(one.opts),
+            shared_options.label(one) if one.param_type_name == "argument" else ", ".join(one.opts),
             "" if one.param_type_name == "argument" else one.metavar or "",
             described(one),
         )
         for one in commands()[command].params
     ]
-
-
-def described(parameter):
-    """Return the help of a parameter with its default."""
-    text, default = " ".join(parameter.help.split()), parameter.default
-    if default is None or default is False or "Default" in text:
-        return text
-    return f"{text} Default: {f'{default:,}'.removesuffix('.0') if isinstance(default, int | float) else default}."
 
 
 @cache

@@ -72,11 +72,7 @@ class Command(Made):
         (name,) = self.arguments
         command = commands()[name]
         yield from (markdown(line) for line in inspect.cleandoc(command.help).splitlines())
-        arguments = "".join(
-            f" [{one.metavar}]..." if one.nargs == -1 else f" {one.metavar}"
-            for one in command.params
-            if one.param_type_name == "argument"
-        )
+        arguments = "".join(f" {one.metavar}" for one in command.params if one.param_type_name == "argument")
         yield from ("", f"Usage: `rocking {name} [OPTIONS]{arguments}`", "")
         common = [one for one in options(name) if one.meaning in shared()]
         axes, ranges = ([one for one in common if one.value.endswith(end)] for end in (AXIS, RANGE))

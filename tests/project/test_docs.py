@@ -10,7 +10,7 @@ import pytest
 import rocking
 from docs.extensions import command_options
 from docs.extensions.entries import sections
-from rocking.cli.app import app
+from rocking.cli.commands import COMMANDS
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -145,7 +145,7 @@ def test_every_public_name_has_one_entry_in_the_reference(name):
 
 
 def test_every_command_has_its_entry():
-    commands = [one.name or one.callback.__name__.replace("_", "-") for one in app.registered_commands]
+    commands = [command.name for command in COMMANDS]
     page = (DOCS / "reference-commands.md").read_text(encoding="utf-8")
     assert re.findall(r"^## rocking (\S+)\n\n```{command} \1\n```$", page, re.MULTILINE) == commands
     assert page.count("```{command-summary}\n") == page.count("```{shared-options}\n") == 1
@@ -233,7 +233,7 @@ def test_every_block_of_code_is_run(page):
 def test_no_two_pages_write_to_one_store():
     """A reader who tries the pages in one folder, one after another, gets no error."""
     texts = {name_of(page): page.read_text(encoding="utf-8") for page in [*PAGES, ROOT / "README.md"]}
-    texts |= {f"help of {one.callback.__name__}": one.epilog or "" for one in app.registered_commands}
+    texts |= {f"help of {command.name}": command.examples for command in COMMANDS}
     stores = [
         (store, where) for where, text in texts.items() for store in set(re.findall(r"[\w-]+\.zarr", text))
     ]

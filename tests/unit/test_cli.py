@@ -198,7 +198,7 @@ def test_csv_holds_the_motion_at_a_hundred_steps_a_cycle(rocking, tmp_path):
 
 
 def test_csv_of_a_normalised_system_has_three_columns(rocking, tmp_path, monkeypatch):
-    monkeypatch.setattr("rocking.cli.output.motion_files.ROWS_AT_ONCE", 1_000)
+    monkeypatch.setattr("rocking.cli.reports_motion.ROWS_AT_ONCE", 1_000)
     assert rocking(f"simulate {NORMALISED} --cycles 25 --csv motion.csv")[0] == 0
     table = np.loadtxt(tmp_path / "motion.csv", delimiter=",", skiprows=1)
     assert table.shape == (2_501, 3)
@@ -273,7 +273,7 @@ def test_lack_of_memory_or_of_threads_is_one_line_with_the_remedy(rocking, tmp_p
     def fail(*_, **__):
         raise error
 
-    monkeypatch.setattr("rocking.cli.output.motion_files.tables", fail)
+    monkeypatch.setattr("rocking.cli.output.write_csv", fail)
     code, message, out = rocking(f"simulate {NORMALISED} --csv a.csv")
     assert (code, out) == (2, "")
     assert message == (

@@ -4,11 +4,10 @@ import re
 import shlex
 
 import pytest
-import typer
 
-from rocking.cli.app import app
+from rocking.cli.commands import COMMANDS as TABLE
 
-COMMANDS = list(typer.main.get_command(app).commands)
+COMMANDS = [command.name for command in TABLE]
 FEWER = {"orbits": " --effort 0.05", "basins": " --boundary-runs 100"}
 """Options that make the examples of a command shorter."""
 WITHOUT_EXAMPLES = {"explore", "cite"}

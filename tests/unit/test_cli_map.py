@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 
 import rocking as rk
-from rocking.cli.input.map_request import WRITERS
 from rocking.cli.main import run
 from rocking.model.verdict import Criterion
 
@@ -115,7 +114,7 @@ def test_curves_and_symbols_are_drawn_into_the_picture(rocking, monkeypatch):
     ],
 )
 def test_what_cannot_be_drawn_is_refused_before_the_map_is_computed(rocking, monkeypatch, options, message):
-    monkeypatch.setattr("rocking.cli.input.map_request.compute", lambda _: pytest.fail("computed"))
+    monkeypatch.setattr("rocking.survey.parametric_map.parametric_map", None)
     code, told, _ = rocking(f"{LINE} --store a.zarr {options}")
     assert code == 2
     assert told.startswith(message)
@@ -180,7 +179,7 @@ def test_who_interrupts_a_picture_is_told_that_the_store_is_complete(rocking, mo
     def interrupt(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setitem(WRITERS, "plot", interrupt)
+    monkeypatch.setattr("rocking.cli.output.draw", interrupt)
     monkeypatch.setattr("sys.argv", ["rocking", *f"{LINE} --store map.zarr --plot map.png".split()])
     assert run()[0] == 130
     told = "rocking: --store 'map.zarr' is complete; repeat the command to write the remaining files\n"

@@ -6,7 +6,6 @@ import json
 import pytest
 
 import rocking as rk
-from rocking.cli.output.motion_files import write_modes
 
 THIRD = "--amplitude 6.5 --period 0.4 --restitution 0.925 -n 3"
 PAIR = "--amplitude 5.5 --period 0.5 --restitution 0.925 -n 7"
@@ -62,10 +61,10 @@ def test_json_has_null_for_what_is_beyond_all_numbers(rocking):
         assert (mode["trace"], mode["multipliers"][0]) == (None, [None, 0.0])
 
 
-def test_picture_has_one_legend_for_both_panels(tmp_path, monkeypatch):
+def test_picture_has_one_legend_for_both_panels(rocking, monkeypatch):
     figures = []
     monkeypatch.setattr(rk.plot, "save", lambda figure, path: figures.append(figure))
-    write_modes(rk.System(rk.Harmonic(2.0, period=1.0), 0.925), 1, None, tmp_path / "a.png")
+    assert rocking("modes --amplitude 2 --period 1 --restitution 0.925 --plot a.png")[0] == 0
     assert [ax.get_legend() is None for ax in figures[0].axes] == [True, False]
 
 

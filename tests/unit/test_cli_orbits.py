@@ -135,7 +135,7 @@ def test_proofs_are_shown(rocking):
 
 
 def test_long_list_is_cut_in_the_text_alone(rocking, monkeypatch, found):
-    monkeypatch.setattr("rocking.cli.reports.orbits.MAX_ROWS", 2)
+    monkeypatch.setattr("rocking.cli.reports_orbits.MAX_ROWS", 2)
     out = rocking(f"orbits {LINE}")[2]
     assert f"and {len(found) - 2} more (all of them with --json, --csv or --netcdf)" in out
     assert len(table(out)) == 1 + 2 + 1

@@ -72,13 +72,13 @@ def test_overturning_is_told_with_its_time_and_is_a_success(rocking):
 
 
 def test_overturned_block_that_lacked_speed_before_says_so():
-    from rocking.cli.reports.record import margin
+    from rocking.cli.reports_motion import margin_text
 
     motion = simulated("push.csv")
-    early = margin(attrs.evolve(motion, margin=-0.1), BLOCK)
+    early = margin_text(attrs.evolve(motion, margin=-0.1), BLOCK)
     assert early.endswith("°/s to overturn, but overturned later")
     stands = attrs.evolve(motion, margin=-0.1, outcome=rk.Outcome.BOUNDED)
-    assert margin(stands, BLOCK).endswith("°/s to overturn")
+    assert margin_text(stands, BLOCK).endswith("°/s to overturn")
 
 
 def test_full_equation_of_motion_says_that_rounding_errors_are_not_assessed(rocking):
@@ -117,11 +117,13 @@ def test_motion_without_losses_is_followed_for_the_length_of_the_record(rocking)
 
 
 def test_undecided_outcome_is_said_in_the_first_line_and_in_a_warning():
-    from rocking.cli.reports.record import undecided, verdict
+    from rocking.cli.reports_motion import record_outcome, undecided
 
     motion = simulated("gentle.csv")
     doubtful = attrs.evolve(motion, certified=False)
-    assert verdict(doubtful, BLOCK) == f"{verdict(motion, BLOCK)} (undecided in double precision)"
+    assert (
+        record_outcome(doubtful, BLOCK) == f"{record_outcome(motion, BLOCK)} (undecided in double precision)"
+    )
     assert list(undecided(motion)) == []
     assert len(list(undecided(doubtful))) == 1
 
@@ -253,10 +255,10 @@ def test_file_named_like_an_option_keeps_its_name(rocking, tmp_path):
 
 
 def test_margin_has_the_sign_of_what_it_says():
-    from rocking.cli.reports.record import margin
+    from rocking.cli.reports_motion import margin_text
 
     for motion in (simulated_pulse(scale) for scale in (1.0, 3.0)):
-        said = margin(motion, BLOCK)
+        said = margin_text(motion, BLOCK)
         assert ("lacked" in said) == (motion.margin < 0)
         speed = math.degrees(BLOCK.radians_per_second(abs(motion.margin)))
         assert f"{speed:.4g}°/s" in said

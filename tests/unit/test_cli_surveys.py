@@ -127,8 +127,7 @@ def test_a_block_of_many_sizes_is_refused(rocking, command):
         'height = "1:2:3"\nwidth = 0.5\nfrequency-hz = "1:2:3"\nacceleration = "2:4:3"\n'
     )
     code, told, _ = rocking(f"{command} --study study.toml")
-    wrong = "--height must be one number, in m: a survey has a single block"
-    assert (code, told) == (2, f"{wrong} (study 'study.toml' gives height)")
+    assert (code, told) == (2, "study 'study.toml': height must be a number; got '1:2:3'")
 
 
 def test_a_path_is_told_as_it_was_typed(rocking):
@@ -280,7 +279,7 @@ def test_basins_of_a_block_have_its_units_and_its_warnings(rocking, tmp_path):
 
 
 def test_a_picture_of_two_lists_in_a_study_file_is_refused_before_the_scan(rocking, monkeypatch):
-    monkeypatch.setattr("rocking.cli.input.overturning_request.compute", lambda _: pytest.fail("computed"))
+    monkeypatch.setattr("rocking.survey.overturning_amplitude.overturning_amplitude", None)
     Path("study.toml").write_text("period = [1, 2]\nrestitution = [0.8, 0.9]\nplot = 'b.png'\n")
     code, message, _ = rocking("overturning --study study.toml")
     wrong = "--plot needs a single axis; got --period and --restitution (give one of them as a number)"

@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
-from rocking.cli.option_names import YourInput
+from rocking.cli.options import InvalidInput
 from rocking.explorer.field_readers import Refused
 from rocking.model.files import WriteError
 from rocking.model.text import shown, shown_path
@@ -278,7 +278,7 @@ RAISED = [
     (TooManyEvents("too many"), {}),
     (StoreError("damaged"), {}),
     (WriteError("full"), {}),
-    (YourInput("mistyped"), {"message": "mistyped"}),
+    (InvalidInput("mistyped"), {"message": "mistyped"}),
     (Refused({"angle": "too large"}), {"fields": {"angle": "too large"}}),
 ]  # fmt: skip
 

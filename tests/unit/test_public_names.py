@@ -13,15 +13,14 @@ import rocking
 
 HEAVY = {
     "attrs",
+    "click",
     "distributed",
     "h5netcdf",
     "matplotlib",
     "numba",
     "numpy",
     "pandas",
-    "rich",
     "scipy",
-    "typer",
     "xarray",
     "zarr",
 }
@@ -44,7 +43,7 @@ def test_importing_a_package_of_public_names_loads_the_table_of_names_alone(pack
 
 def test_a_value_loads_no_kernel_and_no_picture():
     loaded = loaded_after("import rocking; rocking.State()")
-    assert not {"h5netcdf", "matplotlib", "numba", "pandas", "rich", "scipy", "typer", "xarray"} & loaded
+    assert not {"h5netcdf", "matplotlib", "numba", "pandas", "scipy", "xarray", "click"} & loaded
 
 
 @pytest.mark.parametrize("name", ["simulate", "find_orbits", "continue_orbit", "orbit_diagram", "theory"])
@@ -67,7 +66,7 @@ try:
 except SystemExit as exit:
     assert exit.code == 0
 """
-    assert HEAVY & loaded_after(code) == {"typer"}
+    assert HEAVY & loaded_after(code) == {"click"}
 
 
 @pytest.mark.parametrize("name", rocking.__all__)

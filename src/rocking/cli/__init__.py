@@ -1,1 +1,1 @@
-"""Command `rocking`: each file of `commands` parses options, calls one public function and prints its result."""
+"""Command `rocking`: a table of commands, their inputs and their reports."""

@@ -69,22 +69,28 @@ def warn(message: Warning | str, *_: object, **__: object) -> None:
 def run() -> tuple[int, str]:
     """Run the command line; return the exit code and a message of one line, empty if there is nothing to report."""
     try:
+        from click.exceptions import Exit
+
         from rocking.cli.app import app
 
-        # Typer returns the exit code of Ctrl-C instead of raising KeyboardInterrupt.
-        code = app(prog_name="rocking", standalone_mode=False)
+        try:
+            with app.make_context("rocking", sys.argv[1:]) as context:
+                app.invoke(context)
+            code = 0
+        except Exit as ended:  # by --help, for example
+            code = ended.exit_code
         sys.stdout.flush()
     except KeyboardInterrupt:
         return INTERRUPTED, ""
     except Exception as error:  # noqa: BLE001 (the user gets one line, not a traceback)
         code, message = refused(error)
         return code, " ".join(message.split())
-    return code or 0, ""
+    return code, ""
 
 
 def refused(error: Exception) -> tuple[int, str]:
     """Return the exit code and the message for an error that ended a command."""
-    from typer import TyperException
+    from click import ClickException
 
     from rocking.kernels.library.load import KernelsUnusable
     from rocking.model.files import FULL, WriteError
@@ -98,9 +104,8 @@ def refused(error: Exception) -> tuple[int, str]:
             f"the memory or the threads that this process may use do not suffice: {why} "
             "(reduce the numbers of points, samples or cycles, or raise the limits, such as those of ulimit -v and ulimit -u)"
         )
-    if isinstance(error, TyperException):
-        # Typer's "Invalid value for '--name': must …" in the form of all other messages.
-        return 2, re.sub(r"^Invalid value for '([\w-]+)': must ", r"\1 must ", error.format_message())
+    if isinstance(error, ClickException):
+        return 2, error.format_message()
     if isinstance(error, WriteError):
         return 2, str(error)
     if isinstance(error, BrokenPipeError):  # the reader of the pipe has closed it

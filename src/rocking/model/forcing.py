@@ -22,7 +22,9 @@ UNITS = (1e-9, 1e9)
 
 
 def _amplitude(value: float) -> float:
-    return within("amplitude", value, 0, MAX_AMPLITUDE, if_below="for the opposite direction add π to phase")
+    return within(
+        "amplitude", value, 0, MAX_AMPLITUDE, if_below="for the opposite direction add π to {phase}"
+    )
 
 
 def _period(value: float | None) -> float | None:

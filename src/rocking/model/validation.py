@@ -196,6 +196,13 @@ class Refusal(ValueError):
         return type(self), (self.argument, self.allowed, state["value"], self.remedy), state
 
 
+class Statement(Refusal):
+    """Refusal in a sentence of its own: "store a.zarr holds a different survey"; `argument` is a noun phrase."""
+
+    def _sentence(self, argument: str) -> str:
+        return f"{argument} {self.allowed}"
+
+
 class WrongType(Refusal, TypeError):
     """Argument of a type that is not allowed."""
 

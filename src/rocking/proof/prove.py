@@ -10,7 +10,7 @@ from rocking.model.orbit import Orbit
 from rocking.model.package import require_extra
 from rocking.model.proof import Proof
 from rocking.model.system import System, check_start
-from rocking.model.validation import WrongType, instance, refuse_if, within
+from rocking.model.validation import Statement, WrongType, instance, refuse_if, within
 from rocking.model.verdict import Verdict
 
 MAX_HALF_WIDTH = 1.0
@@ -97,9 +97,8 @@ def _without_phase(system: System) -> tuple[object, ...]:
 def check_provable(system: System) -> None:
     """Raise ImportError without python-flint, and ValueError for a block that is not slender."""
     if system.critical_angle is not None:
-        raise ValueError(
-            "proofs are available for the slender block only (omit critical_angle and model full)"
-        )
+        allowed, remedy = "are available for the slender block only", "omit {critical_angle} and {model} full"
+        raise Statement("proofs", allowed, remedy=remedy)
     require_extra("proof")
 
 

@@ -161,7 +161,7 @@ def fragility(
         "samples",
         "be 1 for a certain block",
         count,
-        "give height_spread, width_spread or restitution_spread",
+        "give {height_spread}, {width_spread} or {restitution_spread}",
     )
     asked = block_question(chosen, block, levels, intensity, model=model, one_level=True)
     if any(spreads.values()):

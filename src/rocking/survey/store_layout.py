@@ -10,6 +10,7 @@ from attrs import frozen
 
 from rocking.model.package import VERSION
 from rocking.model.text import shown, shown_path
+from rocking.model.validation import Statement
 from rocking.survey.measurement import Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Level, even_edges, levels, thinned, tile_edges
@@ -131,9 +132,10 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
             if len("; ".join(differences[: count + 1])) <= MAX_TOLD
         ] or differences[:1]
         more = f"; and {len(differences) - len(kept)} more" if len(kept) < len(differences) else ""
-        raise ValueError(
-            f"store {shown_path(path)} holds a different survey: {'; '.join(kept)}{more} "
-            "(give another folder, or the same values)"
+        raise Statement(
+            "{store}",
+            f"{shown_path(path)} holds a different survey: {'; '.join(kept)}{more}",
+            remedy="give another folder, or the same values",
         )
 
 
@@ -200,7 +202,7 @@ def _difference(name: str, there: Any, here: Any) -> str:
         )
     pairs = ((_told(there, digits), _told(here, digits)) for digits in range(DEFAULT_DIGITS, ALL_DIGITS + 1))
     one, other = next((pair for pair in pairs if pair[0] != pair[1]), ("one", "another"))
-    return f"{name} is {one} there and {other} here"
+    return f"{{{name}}} is {one} there and {other} here"
 
 
 def _told(value: Any, digits: int) -> str:

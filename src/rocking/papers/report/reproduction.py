@@ -14,7 +14,7 @@ from rocking.model.files import check_folder
 from rocking.model.package import require_extra
 from rocking.model.progress import Bar
 from rocking.model.text import counted
-from rocking.model.validation import instance
+from rocking.model.validation import Refusal, instance
 from rocking.papers.report import page
 from rocking.papers.report.claim import Chapter
 from rocking.papers.report.workers import Step, carry_out
@@ -80,11 +80,11 @@ class Paper:
         return (*self.figures, *self.tables, CLAIMS, *self.beyond)
 
     def known(self, names: Iterable[str | int]) -> list[str]:
-        """Return names as text; ValueError if the report lacks one."""
+        """Return names as text; Refusal if the report lacks one."""
         found = [str(name) for name in names]
         for name in found:
             if name not in self.names:
-                raise ValueError(f"figures must be among {', '.join(self.names)}; got {name!r}")
+                raise Refusal("figures", f"be among {', '.join(self.names)}", name)
         return found
 
     def steps(self, name: str, folder: Path) -> list[Step]:

@@ -1,1 +1,0 @@
-"""Commands, one file for each: options and order of steps."""

@@ -1,1 +1,0 @@
-"""Conversion of options and study files to the arguments of public functions."""

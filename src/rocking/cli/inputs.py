@@ -1,0 +1,572 @@
+"""From the options of a command to the arguments of its function."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from attrs import Factory, frozen
+
+from rocking.cli.options import (
+    AMPLITUDES,
+    AXIS_FORM,
+    NORMALISED,
+    QUANTITIES,
+    RANGE_FORM,
+    SI,
+    START,
+    SYSTEM,
+    Axis,
+    InvalidInput,
+    Range,
+    option,
+    refusals,
+)
+from rocking.model.block import Block
+from rocking.model.forcing import Harmonic, Pulse
+from rocking.model.system import MAX_START, MODELS, Braces, State, System
+from rocking.model.system import quantities as quantities_of
+from rocking.model.validation import NoOrbit, Refusal, whole, within
+
+if TYPE_CHECKING:
+    from rocking.model.orbit import Orbit
+    from rocking.orbits.branch import Branch
+    from rocking.orbits.orbit_diagram import OrbitDiagram
+
+IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
+VARIES = dict.fromkeys(AMPLITUDES, "amplitude") | {"frequency_hz": "frequency", "period_s": "period"}
+"""Option → the normalised quantity that it varies."""
+NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
+SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
+OUTPUTS = ("plot", "animate", "csv", "netcdf", "tiles")
+OTHER = {*SYSTEM, *START, *OUTPUTS, "model", "study", "json", "pulse", "curves", "symbols", "sources"}
+"""Options that are no arguments of a function under their own names."""
+DEFAULT_MODES = (1, 3)
+STARTS = 200
+"""Default number of initial states along an axis of a grid."""
+Options = Mapping[str, Any]
+
+
+@frozen
+class Request:
+    """Request of a computation: the arguments of its function, and what its report needs."""
+
+    arguments: dict[str, Any]
+    options: Options
+    block: Block | None = None
+    names: dict[str, str] = Factory(dict)
+    """Arguments in messages → names of options, where these differ."""
+    warnings: list[str] = Factory(list)
+    """Warnings of the reader of records."""
+    varied: str = ""
+    """Option with an axis or a range, as typed."""
+    records: Any = None
+
+
+def own_arguments(options: Options) -> dict[str, Any]:
+    """Return the options that are arguments of a function under their own names."""
+    return {name: value for name, value in options.items() if name not in OTHER}
+
+
+# One system.
+
+
+def normalised_and_si(options: Options) -> tuple[list[str], list[str]]:
+    """Return the names of the given normalised options and SI options; InvalidInput if both kinds are given."""
+    normalised, physical = ([name for name in kind if name in options] for kind in (NORMALISED, SI))
+    if normalised and physical:
+        name = normalised[0]
+        raise InvalidInput(
+            f"{option(name)} is normalised and {option(physical[0])} is SI: use one of the two (the SI option is {option(IN_SI[name])})"
+        )
+    return normalised, physical
+
+
+def require(options: Options, groups: Iterable[tuple[str, ...]], needs: str) -> None:
+    """Raise InvalidInput if all options of a group are missing; each group needs one of its options."""
+    missing = [option(group[0]) for group in groups if not any(name in options for name in group)]
+    if missing:
+        lacks = " and ".join(missing)
+        raise InvalidInput(f"missing {lacks}" if lacks == needs else f"missing {lacks}: give {needs}")
+
+
+def system_of(options: Options) -> tuple[System, Block | None]:
+    """Return the system and, with SI input, the block of the options; InvalidInput if invalid."""
+    normalised, physical = normalised_and_si(options)
+    if not normalised and not physical:
+        raise InvalidInput(f"no system is given: give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
+    if normalised:
+        require(options, (("amplitude",), ("period", "frequency"), ("restitution",)), NORMALISED_NEEDS)
+        if "model" in options:
+            raise InvalidInput("--model needs a block in SI: give --critical-angle with normalised input")
+    else:
+        require(options, (("height",), ("width",), SI[2:5], SI[5:]), SI_NEEDS)
+        if "critical_angle" in options:
+            raise InvalidInput("--critical-angle is normalised: with --height and --width give --model full")
+    braces = braces_of(options)
+    with refusals({"kind": "--pulse"}):
+        if normalised:
+            block = None
+            forcing = Harmonic(**select(options, *NORMALISED, "phase"))
+            system = System(
+                forcing, options["restitution"], braces, critical_angle=options.get("critical_angle")
+            )
+        else:
+            block = Block(options["height"], options["width"], options.get("restitution"))
+            base = select(options, *SI[2:], "phase")
+            system = block.system(**base, braces=braces, model=options.get("model", MODELS[0]))
+        return pulsed(system, options) if "pulse" in options else system, block
+
+
+def select(options: Options, *names: str) -> dict[str, Any]:
+    """Return the options among `names`."""
+    return {name: options[name] for name in names if name in options}
+
+
+def pulsed(system: System, options: Options) -> System:
+    """Return a system with one pulse of the amplitude and the period of its harmonic base motion."""
+    from attrs import evolve
+
+    for name in ("phase", "displacement"):
+        if options.get(name):
+            raise InvalidInput(f"{option(name)} belongs to harmonic motion: omit it with --pulse")
+    part = 0.5 if options["pulse"] == "half-sine" else 1.0
+    wave = system.periodic
+    return evolve(
+        system, forcing=Pulse(options["pulse"], amplitude=wave.amplitude, duration=part * wave.period)
+    )
+
+
+def braces_of(options: Options) -> Braces | None:
+    """Return the braces of the options, if there are any; InvalidInput if invalid."""
+    if "brace_angle" not in options:
+        if "brace_restitution" in options:
+            raise InvalidInput("--brace-restitution needs --brace-angle")
+        return None
+    with refusals({"angle": option("brace_angle"), "restitution": option("brace_restitution")}):
+        return Braces(options["brace_angle"], options.get("brace_restitution", 1.0))
+
+
+def start_of(options: Options) -> State:
+    """Return the initial state of the options."""
+    with refusals():
+        return State(*(within(name, options.get(name, 0.0), -MAX_START, MAX_START) for name in START))
+
+
+def response(options: Options) -> Request:
+    """Return the request of a function of a system and an initial state."""
+    request = one_system(options)
+    return Request(request.arguments | {"start": start_of(options)}, options, request.block)
+
+
+def one_system(options: Options) -> Request:
+    """Return the request of a function of a system."""
+    arguments = own_arguments(options)
+    system, block = system_of(options)
+    return Request({"system": system} | arguments, options, block)
+
+
+def simulation(options: Options) -> Request:
+    """Return the request of a simulation."""
+    from rocking.cli.reports_motion import MAX_CYCLES_KEPT
+
+    cycles = options.get("cycles", None if "pulse" in options else 200)
+    if "pulse" in options and cycles is not None:
+        raise InvalidInput("--cycles belongs to harmonic motion: omit it with --pulse")
+    files = tuple(name for name in OUTPUTS if name in options)
+    if files and cycles is not None and cycles > MAX_CYCLES_KEPT:
+        names = ", ".join(map(option, files))
+        raise InvalidInput(f"--cycles must be at most {MAX_CYCLES_KEPT} with {names}; got {cycles}")
+    system, block = system_of(options)
+    return Request(
+        {"system": system, "start": start_of(options), "cycles": cycles, "files": files}, options, block
+    )
+
+
+# One varied quantity of a system.
+
+
+class Varied(NamedTuple):
+    """Quantity that one option varies, and the systems at both ends."""
+
+    name: str  # option
+    parameter: str
+    first: System
+    last: System
+    block: Block | None
+
+
+def varied_of(options: Options, kind: type, form: str) -> Varied:
+    """Return the quantity that exactly one option varies, as an axis or a range; InvalidInput for another number of them."""
+    article = "an axis" if kind is Axis else "a range"
+    names = [name for name, value in options.items() if isinstance(value, kind)]
+    if len(names) != 1:
+        got = " and ".join(map(option, names)) or "none"
+        raise InvalidInput(f"exactly one option must be {article}, {form}; got {got}")
+    (name,) = names
+    if "displacement" in options and name in ("frequency_hz", "period_s"):
+        raise InvalidInput(
+            f"--displacement with {article} of {option(name)} varies amplitude and frequency: use --acceleration instead"
+        )
+    # Valid ranges are intervals, so that two valid ends imply valid values between them.
+    first, block = system_of({**options, name: options[name].start})
+    last, _ = system_of({**options, name: options[name].stop})
+    return Varied(name, VARIES.get(name, name), first, last, block)
+
+
+def ends_of(varied: Varied) -> tuple[float, float]:
+    """Return the first and the last value of a quantity of the forcing."""
+    return getattr(varied.first.periodic, varied.parameter), getattr(varied.last.periodic, varied.parameter)
+
+
+def varied_text(name: str, value: Axis | Range) -> str:
+    """Return an option with an axis or a range, as text."""
+    return f"{option(name)} {value.start:.6g} to {value.stop:.6g}"
+
+
+def continuation(options: Options) -> Request:
+    """Return the request of a branch of orbits: exactly one option is a range."""
+    varied = varied_of(options, Range, RANGE_FORM)
+    ends = options[varied.name]
+    with refusals():
+        at = within("--at", options["at"], *sorted(ends)) if "at" in options else ends.start
+    system, block = system_of({**options, varied.name: at})
+    arguments = {
+        "system": system,
+        "start": start_of(options),
+        "parameter": varied.parameter,
+        "bounds": tuple(sorted(quantities_of(end)[varied.parameter] for end in (varied.first, varied.last))),
+        "step": options["step"],
+        "response_period": options.get("response_period"),
+        "name": option(varied.name),
+    }
+    return Request(arguments, options, block, varied=varied_text(varied.name, options[varied.name]))
+
+
+class Followed(NamedTuple):
+    """Orbit and its branch."""
+
+    orbit: Orbit
+    branch: Branch
+
+
+MAX_RESPONSE_PERIOD = 1000
+
+
+def follow(
+    system: System,
+    start: State,
+    parameter: str,
+    bounds: tuple[float, float],
+    step: float,
+    response_period: int | None,
+    name: str,
+) -> Followed:
+    """Return an orbit and its branch; InvalidInput if there is none, or an argument is invalid. `name` is the option varied."""
+    from rocking.orbits.continuation import continue_orbit
+    from rocking.orbits.parameter import check_range, check_step
+
+    with refusals({f"bounds of {parameter}": name}):
+        check_range(parameter, bounds)
+        check_step(step)
+        orbit = (
+            approached(system, start) if response_period is None else nearest(system, start, response_period)
+        )
+        try:
+            return Followed(orbit, continue_orbit(orbit, parameter, bounds, step))
+        except Refusal as error:
+            if error.argument != "orbit":
+                raise
+            raise Refusal("orbit", error.allowed, error.value, "give another --at") from error
+
+
+def approached(system: System, start: State) -> Orbit:
+    """Return the orbit that the response from the initial state approaches."""
+    from rocking.response.classify import classify
+
+    verdict = classify(system, start)
+    if verdict.orbit is None:
+        raise InvalidInput(
+            f"the response from the initial state must be periodic; got {verdict.kind} (give --response-period, "
+            "another --at, or another --angle and --velocity)"
+        )
+    return verdict.orbit
+
+
+def nearest(system: System, start: State, response_period: int) -> Orbit:
+    """Return an orbit near the initial state with the response period wanted; InvalidInput if Newton's method finds none."""
+    from rocking.orbits.find_orbit import find_orbit
+
+    period = whole("response_period", response_period, 1, MAX_RESPONSE_PERIOD)
+    state = f"--angle {start.angle:.6g} and --velocity {start.velocity:.6g}"
+    nearer = "give --angle and --velocity nearer to the orbit"
+    try:
+        orbit = find_orbit(system, start, period)
+    except NoOrbit as error:
+        raise InvalidInput(
+            f"no orbit of period {period} was found from {state}: Newton's method ends at {error.state}, with a residual of "
+            f"{error.residual:.3g} ({nearer}, or another --response-period)"
+        ) from error
+    except Refusal as error:
+        if error.argument != "guess":
+            raise
+        raise InvalidInput(f"the initial state must {error.allowed}; got {state} ({nearer})") from error
+    if orbit.period != period:
+        raise InvalidInput(
+            f"the orbit found near the initial state must have --response-period {period}; got period {orbit.period} "
+            f"({nearer})"
+        )
+    return orbit
+
+
+def sweep(options: Options) -> Request:
+    """Return the request of an orbit diagram: exactly one option is an axis."""
+    varied = varied_of(options, Axis, AXIS_FORM)
+    axis = options[varied.name]
+    ends: tuple[float, float] = axis.start, axis.stop
+    if varied.name in VARIES:  # each SI quantity is proportional to the normalised one
+        ends = ends_of(varied)
+    arguments = {
+        "system": varied.first,
+        "parameter": varied.parameter,
+        "values": np.linspace(*ends, axis.points),
+        "start": start_of(options),
+        **own_arguments(options),
+    }
+    return Request(arguments, options, varied.block, varied=varied_text(varied.name, axis))
+
+
+def diagram(*, progress: bool, **arguments: Any) -> OrbitDiagram:
+    """Compute an orbit diagram, with `progress` on stderr."""
+    from rocking.model.progress import Bar
+    from rocking.orbits.orbit_diagram import orbit_diagram
+
+    total = len(arguments["values"]) * (2 if arguments["sweep"] == "both" else 1)
+    with Bar(total, "orbit diagram", shown=progress) as bar:
+        return orbit_diagram(**arguments, progress=bar.advance)
+
+
+# The displacement is absent: its amplitude of acceleration would vary with the frequency.
+RESPONSE_NEEDS = "--height, --width, --acceleration (or --acceleration-g) and --frequency-hz (or --period-s)"
+
+
+def frequency_response(options: Options) -> Request:
+    """Return the request of a frequency response: the period or the frequency is an axis."""
+    if normalised_and_si(options)[1]:
+        groups: tuple[tuple[str, ...], ...] = (("height",), ("width",), SI[2:4], SI[5:])
+        require(options, groups, RESPONSE_NEEDS)
+    else:
+        groups = (("amplitude",), ("period", "frequency"), ("restitution",))
+        require(options, groups, f"{NORMALISED_NEEDS}, or in SI {RESPONSE_NEEDS}")
+    both = {name: value.start if isinstance(value, Axis) else value for name, value in options.items()}
+    system_of(both)  # period and frequency together are invalid
+    varied = varied_of(options, Axis, AXIS_FORM)
+    axis = options[varied.name]
+    arguments = {
+        varied.parameter: np.linspace(*ends_of(varied), axis.points),
+        "amplitude": varied.first.periodic.amplitude,
+        "restitution": varied.first.restitution,
+        "modes": options.get("modes", DEFAULT_MODES),
+        "step": options["step"],
+        "max_cycles": options["max_cycles"],
+    }
+    amplitude = next(name for name in AMPLITUDES if name in options)
+    names = {varied.parameter: option(varied.name), "amplitude": option(amplitude)}
+    text = f"{varied_text(varied.name, axis)} ({axis.points:,} values)"
+    return Request(arguments, options, varied.block, names, varied=text)
+
+
+# Surveys of systems with a harmonic base motion.
+
+
+def normalised(options: Options) -> dict[str, Any]:
+    """Return normalised numbers and arrays of quantities given as numbers, axes and lists."""
+    options = {name: value for name, value in options.items() if name in (*SYSTEM, *START, "model")}
+    varied = {name: each for name, each in options.items() if isinstance(each, Axis)}
+    lists = {name: each for name, each in options.items() if isinstance(each, np.ndarray)}
+    if in_si := [name for name in lists if name in SI]:
+        raise InvalidInput(f"{option(in_si[0])} with SI input must be a number or {AXIS_FORM}; got a list")
+    if "displacement" in options and {"frequency_hz", "period_s"} & varied.keys():
+        raise InvalidInput(
+            "--displacement with an axis of the frequency varies amplitude and frequency: use --acceleration instead"
+        )
+    # Valid ranges are intervals, so that two valid ends imply valid values between them.
+    first, last = (
+        numbers_of(
+            options
+            | {name: getattr(each, end) for name, each in varied.items()}
+            | {name: each[place] for name, each in lists.items()}
+        )
+        for end, place in (("start", 0), ("stop", -1))
+    )
+    points = {VARIES.get(name, name): axis.points for name, axis in varied.items()}
+    return {
+        name: values_of(Axis(first[name], last[name], points[name])) if name in points else first[name]
+        for name in QUANTITIES
+        if name in first
+    } | lists
+
+
+def numbers_of(options: Options) -> dict[str, Any]:
+    """Return the quantities of a system and an initial state by their names in `parametric_map`."""
+    system, _ = system_of(options)
+    start = start_of(options)
+    numbers = quantities_of(system) | {"angle": start.angle, "velocity": start.velocity}
+    del numbers["period" if "frequency" in options or "frequency_hz" in options else "frequency"]
+    return numbers
+
+
+def values_of(value: Any) -> Any:
+    """Return the values of an axis in ascending order; other values unchanged."""
+    if not isinstance(value, Axis):
+        return value
+    low, high = sorted((value.start, value.stop))
+    return np.linspace(low, high, value.points)
+
+
+def block_of(options: Options) -> Block | None:
+    """Return the block of SI input, else None; a varying restitution is replaced by its first value."""
+    if "height" not in options:
+        return None
+    restitution = options.get("restitution")
+    if isinstance(restitution, Axis):
+        restitution = restitution.start
+    return Block(
+        options["height"],
+        options["width"],
+        restitution[0] if isinstance(restitution, np.ndarray) else restitution,
+    )
+
+
+def check_entry(key: str, name: str, value: Any) -> None:
+    """Check an entry of a study file for a survey; ValueError if it is invalid."""
+    from rocking.model.system import RANGES
+    from rocking.response.classify import MAX_CYCLES, MAX_PERIOD
+    from rocking.survey.overturning_amplitude import MAX_PHASES
+    from rocking.survey.random_points import MAX_SAMPLES, MAX_SEED
+    from rocking.survey.spec import number_or_axis
+    from rocking.survey.uncertainty_exponent import WIDTHS
+
+    counts = {
+        "samples": (1, MAX_SAMPLES),
+        "seed": (0, MAX_SEED),
+        "phases": (1, MAX_PHASES),
+        "max_cycles": (1, MAX_CYCLES),
+        "max_period": (1, MAX_PERIOD),
+        "boundary_runs": (0, MAX_SAMPLES),
+    }
+    if name in QUANTITIES:
+        for each in value[:2] if isinstance(value, tuple) else (value,):
+            number_or_axis(key, each, RANGES[name])
+    elif name in counts:
+        whole(key, value, *counts[name])
+    elif name == "boundary_width":
+        within(key, value, *WIDTHS)
+
+
+def survey_request(
+    options: Options, arguments: dict[str, Any], names: Mapping[str, str] | None = None
+) -> Request:
+    """Return the request of a survey; messages name quantities derived from a block in words, as they are no options."""
+    block = block_of(options)
+    names = {} if block is None else {name: f"the normalised {name}" for name in NORMALISED}
+    if block is not None and block.has_housner_restitution:
+        names["restitution"] = "restitution, which follows from the block,"
+    return Request(own_arguments(options) | arguments, options, block, names)
+
+
+def parametric_map(options: Options) -> Request:
+    """Return the request of a parametric map."""
+    request = survey_request(options, normalised(options))
+    drawn = [name for name in ("curves", "symbols") if name in options]
+    if drawn and "plot" not in options:
+        raise InvalidInput(f"{option(drawn[0])} needs a plot: give --plot FILE as well")
+    if drawn:
+        from rocking.plot import style, theory_curves
+        from rocking.survey.spec import question as spec_of
+
+        with refusals(request.names):
+            spec = spec_of(request.arguments, 2, "a parametric map")
+            style.check_symbols(options.get("symbols"))
+            theory_curves.check(options.get("curves", ()), spec.axes, spec.fixed)
+    return request
+
+
+def basins(options: Options) -> Request:
+    """Return the request of basins of attraction."""
+    system, _ = system_of(options)
+    reach = 1.0 if system.braces is None else min(system.braces.angle, 1.0)
+    axes = {"angle": Axis(-reach, reach, STARTS), "velocity": Axis(-1.0, 1.0, STARTS)} | select(
+        options, *START
+    )
+    random = "samples" in options
+    starts = {
+        name: [axis.start, axis.stop] if random and isinstance(axis, Axis) else values_of(axis)
+        for name, axis in axes.items()
+    }
+    return survey_request(options, {"system": system} | starts)
+
+
+def safe_basin(options: Options) -> Request:
+    """Return the request of a safe basin."""
+    numbers = normalised({name: value for name, value in options.items() if name not in START})
+    reach = min(numbers.get("brace_angle", 1.0), 1.0)
+    system = {name: value for name, value in numbers.items() if name not in START}
+    starts = {"angle": (-reach, reach)} | select(options, *START)
+    return survey_request(options, system | starts)
+
+
+def overturning(options: Options) -> Request:
+    """Return the request of the lowest overturning amplitudes."""
+    in_si = bool(normalised_and_si(options)[1])
+    if in_si:
+        require(
+            options, (("height",), ("width",), SI[5:]), "--height, --width and --frequency-hz (or --period-s)"
+        )
+    else:
+        needs = "--period (or --frequency) and --restitution"
+        require(options, (("period", "frequency"), ("restitution",)), needs)
+    varied = [
+        name
+        for name, each in options.items()
+        if name in SYSTEM and name not in AMPLITUDES and not isinstance(each, int | float)
+    ]
+    if "plot" in options and len(varied) > 1:
+        raise InvalidInput(
+            f"--plot needs a single axis; got {' and '.join(map(option, varied))} (give one of them as a number)"
+        )
+    names = ("period", "frequency", "restitution", "amplitude", "critical_angle")
+    if not in_si:
+        return survey_request(
+            options, {name: values_of(value) for name, value in select(options, *names).items()}
+        )
+    scanned = any(name in options for name in AMPLITUDES)
+    numbers = normalised(options if scanned else {**options, "acceleration": 0.0})
+    return survey_request(
+        options, select(numbers, *(name for name in names if scanned or name != "amplitude"))
+    )
+
+
+def overturning_spectrum(options: Options) -> Request:
+    """Return the request of an overturning spectrum of pulses."""
+    require(options, (("pulse",),), "the form of the pulse, such as --pulse one-sine")
+    if normalised_and_si(options)[1]:
+        needs = "--height, --width, --acceleration (or --acceleration-g) and --frequency-hz"
+        require(options, (("height",), ("width",), SI[2:4], SI[5:6]), needs)
+        if "acceleration" in options and "acceleration_g" in options:
+            raise InvalidInput("give --acceleration or --acceleration-g, not both")
+    else:
+        require(
+            options,
+            (("amplitude",), ("frequency",), ("restitution",)),
+            "--amplitude, --frequency and --restitution",
+        )
+    for name in ("restitution", "critical_angle"):
+        if "plot" in options and not isinstance(options.get(name, 0.0), int | float):
+            raise InvalidInput(f"--plot needs one value of {option(name)}; got an axis (give a number)")
+    numbers = normalised({name: value for name, value in options.items() if name != "pulse"})
+    names = ("amplitude", "frequency", "restitution", "critical_angle")
+    request = survey_request(options, {"kind": options["pulse"]} | select(numbers, *names))
+    request.names["kind"] = "--pulse"
+    return request

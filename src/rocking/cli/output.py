@@ -1,0 +1,277 @@
+"""Output of a command: files, which are checked before the computation, and what is printed."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import click
+from attrs import frozen
+
+from rocking.cli.options import FILMS, QUANTITIES, InvalidInput, OutputFile, OutputFolder, option, refusals
+from rocking.model.block import PHYSICAL, SAME_IN_SI, Block, block_attributes
+from rocking.model.files import (
+    TILES,
+    check_replaceable,
+    check_writable,
+    replacing,
+    replacing_hdf5,
+    resolve_path,
+)
+from rocking.model.text import shown_path
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.cli.inputs import Request
+
+Row = tuple[str, ...]
+Table = Mapping[str, Any]
+"""Columns by heading."""
+WARNING = "warning: "
+INPUT_FILES = {"study": "the study file", "file": "the record", "sources": "a record"}
+"""Parameters of commands whose values are input files, and what these are in messages."""
+
+
+def check_files(parameters: Iterable[click.Parameter], options: Mapping[str, Any]) -> dict[str, Path]:
+    """Return the requested output files by the names of their options, of tiles their page.
+
+    InvalidInput is raised for a file that cannot be written, and for outputs that would overwrite each other or an input.
+    """
+    requested = [each for each in parameters if each.name in options]
+    folders = {each.name: options[each.name] for each in requested if isinstance(each.type, OutputFolder)}
+    files = {each.name: options[each.name] for each in requested if isinstance(each.type, OutputFile)}
+    # the order of the messages and of the lines "wrote ..."
+    files = {name: files[name] for name in ("plot", "animate", "csv", "netcdf") if name in files}
+    check_apart(folders | files, inputs_of(options))
+    for each in requested:
+        if isinstance(each.type, OutputFile):
+            check_file(each.name, files[each.name], each.type.suffixes)
+    if "tiles" in folders:
+        with refusals():
+            folder = check_replaceable("--tiles", folders["tiles"], TILES)
+        files["tiles"] = folder / TILES.page
+    return files
+
+
+def check_file(name: str, path: Path, suffixes: Sequence[str]) -> None:
+    """Raise InvalidInput for a file that cannot be written."""
+    if path == Path("-"):
+        raise InvalidInput(
+            f"{option(name)} must be the path of a file; got '-' (files are not written to stdout: use --json for the summary)"
+        )
+    with refusals():
+        check_writable(option(name), path, suffixes)
+
+
+def inputs_of(options: Mapping[str, Any]) -> dict[Path, str]:
+    """Return the input files of a command, and what they are in messages."""
+    inputs: dict[Path, str] = {Path("/dev/stdout"): "the file to which stdout is redirected"}
+    for name, what in INPUT_FILES.items():
+        value = options.get(name, ())
+        inputs |= dict.fromkeys((value,) if isinstance(value, Path) else value, what)
+    return inputs
+
+
+def check_apart(outputs: Mapping[str, Path], inputs: Mapping[Path, str]) -> None:
+    """Raise InvalidInput for two outputs at one place, one output inside another, or an output in place of an input.
+
+    The place of a link is that of its target.
+    """
+    taken: dict[Path, str] = {}
+    for name, path in outputs.items():
+        with refusals():
+            place = resolve_path(option(name), path)
+        for there, what in inputs.items():
+            if is_same(place, there.resolve()):
+                raise InvalidInput(f"{option(name)} must not overwrite {what}; got {shown_path(path)}")
+        for there, other in taken.items():
+            if is_same(place, there):
+                raise InvalidInput(
+                    f"{option(other)} and {option(name)} must differ; got {shown_path(path)} for both"
+                )
+            if place.is_relative_to(there) or there.is_relative_to(place):
+                raise InvalidInput(
+                    f"{option(other)} and {option(name)} must not lie inside each other; got {shown_path(path)} for {option(name)}"
+                )
+        taken[place] = name
+
+
+def is_same(one: Path, other: Path) -> bool:
+    """Return whether two absolute paths without symbolic links are one place, also by hard links."""
+    return one == other or (one.exists() and other.exists() and one.samefile(other))
+
+
+# Files.
+
+
+def write_csv(tables: Iterable[Table], path: Path) -> None:
+    """Write tables with the same headings as one CSV file; a table maps headings to arrays."""
+    import csv
+
+    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        for number, table in enumerate(tables):
+            if number == 0:
+                writer.writerow(table)
+            writer.writerows(zip(*(column.tolist() for column in table.values()), strict=True))
+
+
+def write_dataset(data: xr.Dataset, path: Path) -> None:
+    """Write a dataset held in memory as netCDF."""
+    with replacing_hdf5(path) as file:
+        data.to_netcdf(file, engine="h5netcdf")
+
+
+def columns(table: Table, block: Block | None) -> dict[str, Any]:
+    """Return columns with units in their headings; with a block, its quantities are repeated in SI."""
+    known = {name: PHYSICAL[name] for name in table if name in PHYSICAL}
+    units = SAME_IN_SI | {name: each.normalised for name, each in known.items()}
+    headed = {f"{name} [{units[name]}]" if name in units else name: column for name, column in table.items()}
+    if block is None:
+        return headed
+    return headed | {each.heading: each.turn(block, table[name]) for name, each in known.items()}
+
+
+def with_fixed(table: Table, varied: Iterable[Any], quantities: Mapping[Any, Any]) -> dict[str, Any]:
+    """Return the columns of the varied quantities, of the fixed ones, then all others, so that each row states its system."""
+    import numpy as np
+
+    count = len(next(iter(table.values())))
+    first = {str(name): table[str(name)] for name in varied}
+    fixed = {name: np.full(count, quantities[name]) for name in QUANTITIES if name in quantities}
+    return first | fixed | dict(table)
+
+
+def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
+    """Return the dataset with additional coordinates in SI and with the block in its attributes."""
+    if block is None:
+        return data
+    in_si = {
+        each.key: (
+            data[name].dims,
+            each.turn(block, data[name].values),
+            {"long_name": f"{each.name} in SI", "units": each.cf},
+        )
+        for name, each in PHYSICAL.items()
+        if name in data.coords
+    }
+    return data.assign_coords(in_si).assign_attrs(block_attributes(block))
+
+
+# Reports.
+
+
+class Text(NamedTuple):
+    """What is printed: a title, rows as columns, and further lines."""
+
+    title: str
+    rows: Iterable[Row]
+    lines: Iterable[str] = ()
+
+
+def _none(*_: Any) -> Any:
+    return {}
+
+
+@frozen
+class Report:
+    """How a result is printed and written. Each function takes the result and its request.
+
+    `record` returns the entries in JSON before the list of files, `more` those after it. `figure` also takes `rocking.plot`.
+    """
+
+    text: Callable[[Any, Request], Text]
+    record: Callable[[Any, Request], dict[str, Any]]
+    figure: Callable[[Any, Any, Request], Any] = _none
+    tables: Callable[[Any, Request], Iterable[Table]] = _none
+    data: Callable[[Any, Request], xr.Dataset] = _none
+    more: Callable[[Any, Request], dict[str, Any]] = _none
+    write_data: Callable[[xr.Dataset, Path], None] = write_dataset
+
+
+def write(report: Report, result: Any, request: Request, files: Mapping[str, Path]) -> None:
+    """Write the requested files of a result."""
+    for name, path in files.items():
+        if name == "csv":
+            write_csv(report.tables(result, request), path)
+        elif name == "netcdf":
+            report.write_data(report.data(result, request), path)
+        else:
+            draw(report, result, request, path)
+
+
+def draw(report: Report, result: Any, request: Request, path: Path) -> None:
+    """Write the figure of a result, its animation or its tiles."""
+    from rocking import plot
+
+    if path.suffix.lower() in FILMS:
+        plot.animation(result, path, request.block)
+    elif path.name == TILES.page:
+        plot.tiles(result, path.parent, request.block)
+    else:
+        plot.save(report.figure(plot, result, request), path)
+
+
+@contextmanager
+def complete(store: Path | None) -> Iterator[None]:
+    """Report that the store is complete if the output after the survey is interrupted."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if store is not None:
+            note = f"--store {shown_path(store)} is complete; repeat the command to write the remaining files"
+            print(f"rocking: {note}", file=sys.stderr)
+        raise
+
+
+def show(report: Report, result: Any, request: Request, paths: Sequence[Path]) -> None:
+    """Print the result as a table or as JSON, and the paths of the files."""
+    if request.options.get("json"):
+        files = {"files": [str(path) for path in paths]}
+        print_json(report.record(result, request) | files | report.more(result, request))
+    else:
+        print_table(report.text(result, request), paths)
+
+
+def print_table(text: Text, files: Iterable[Path]) -> None:
+    """Print a title, rows as columns, further lines, and the paths of the files written."""
+    print(styled(text.title, bold=True))
+    for line in aligned(list(text.rows)):
+        print(line)
+    for line in text.lines:
+        print(styled(line, fg="yellow") if line.startswith(WARNING) else line)
+    for path in files:
+        print(f"wrote {path}")
+
+
+def styled(text: str, **style: Any) -> str:
+    """Return a text with a style if stdout is a terminal, unless the user wants no colours."""
+    return click.style(text, **style) if sys.stdout.isatty() and not os.environ.get("NO_COLOR") else text
+
+
+def print_json(record: dict[str, Any]) -> None:
+    """Print a JSON object."""
+    print(json.dumps(finite(record), indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def aligned(rows: Sequence[Row]) -> Iterator[str]:
+    """Yield the rows as lines of a table; lines are never cut, so that numbers stay whole in a narrow terminal."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        yield "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+
+
+def finite(value: Any) -> Any:
+    """Replace infinities and NaN by None, because JSON has no such numbers."""
+    if isinstance(value, dict):
+        return {name: finite(part) for name, part in value.items()}
+    if isinstance(value, list):
+        return [finite(part) for part in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,1 +1,0 @@
-"""Output to files and to the console."""

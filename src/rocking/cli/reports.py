@@ -1,0 +1,273 @@
+"""Rows, JSON entries and warnings that several reports share."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import attrs
+import numpy as np
+
+from rocking.cli.output import WARNING, Row
+from rocking.model.block import PHYSICAL, Block
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.forcing import Pulse
+from rocking.model.share import Share
+from rocking.model.system import System, angle_doubt, quantities
+from rocking.model.text import counted
+from rocking.model.verdict import Verdict
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.motion.motion import Motion
+    from rocking.response.lyapunov import LyapunovSpectrum
+
+MAX_ROWS = 20
+"""Largest number of printed rows of a long result."""
+
+
+def input_rows(result: Motion | Verdict | LyapunovSpectrum, block: Block | None) -> Iterator[Row]:
+    """Yield the rows of the input, normalised and in SI."""
+    yield from system_rows(result.system, block)
+    yield (
+        "initial state",
+        f"Θ = {result.start.angle:.6g}, Θ' = {result.start.velocity:.6g}",
+        "" if block is None else state_in_si(result.start, block),
+    )
+
+
+def system_rows(system: System, block: Block | None) -> Iterator[Row]:
+    """Yield the rows of the system."""
+    restitution, braces = system.restitution, system.braces
+    if block is not None:
+        yield "", "normalised", "in SI"
+        yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
+        yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
+        if system.critical_angle is not None:
+            yield "equation of motion", "full", ""
+    elif system.critical_angle is not None:
+        yield "critical angle", f"θcr = {system.critical_angle:.6g} rad, full equation of motion", ""
+    yield from base_rows(system, block)
+    if block is None:
+        yield "restitution", f"e = {restitution:.6g}", ""
+    else:
+        yield "restitution", f"e = {restitution:.6g}", origin(block)
+    if braces is not None:
+        at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
+        yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
+
+
+def base_rows(system: System, block: Block | None) -> Iterator[Row]:
+    """Yield the rows of a base motion that a few numbers describe."""
+    if isinstance(system.forcing, Pulse):
+        pulse = system.forcing
+        size = f"A = {pulse.amplitude:.6g}"
+        yield "pulse", pulse.kind, ""
+        yield "amplitude", size, in_si("amplitude", pulse.amplitude, block)
+        yield "duration", f"τ = {pulse.span:.6g}", in_si("period", pulse.span, block)
+        return
+    forcing = system.periodic
+    if block is None:
+        yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
+    else:
+        yield "amplitude", f"A = {forcing.amplitude:.6g}", in_si("amplitude", forcing.amplitude, block)
+        yield "period", f"T = {forcing.period:.6g}", in_si("period", forcing.period, block)
+        yield "phase", f"φ = {forcing.phase:.6g}", f"{math.degrees(forcing.phase):.4g}°"
+
+
+def origin(block: Block) -> str:
+    """Return the origin of the coefficient of restitution of a block, in words."""
+    return "Housner's value for this block" if block.has_housner_restitution else "as given"
+
+
+def in_si(name: str, values: Any, block: Block | None) -> str:
+    """Return a quantity, or the ends of its range, in SI units; an acceleration in m/s² and in g."""
+    if block is None or name not in IN_SI:
+        return ""
+    turn, unit = IN_SI[name]
+    text = f"{ends_text(turn(block, values))}{unit}"
+    return f"{text} = {ends_text(block.acceleration(values) / GRAVITY)} g" if name == "amplitude" else text
+
+
+def ends_text(values: Any) -> str:
+    """Return a number, or the ends of a range."""
+    return " to ".join(f"{value:.4g}" for value in np.atleast_1d(values))
+
+
+def degrees_per_second(block: Block, velocities: Any) -> Any:
+    """Return velocities in degrees per second."""
+    return np.degrees(block.radians_per_second(velocities))
+
+
+IN_SI: dict[str, tuple[Callable[[Block, Any], Any], str]] = {
+    "amplitude": (Block.acceleration, " m/s²"),
+    "period": (Block.seconds, " s"),
+    "frequency": (Block.hertz, " Hz"),
+    "angle": (Block.degrees, "°"),
+    "velocity": (degrees_per_second, "°/s"),
+    "brace_angle": (Block.degrees, "°"),
+}
+"""Quantity → its conversion by a block and the unit printed."""
+
+
+def angle_warning(angle: float, block: Block | None) -> Iterator[str]:
+    """Yield a warning for an initial angle that was probably meant in degrees."""
+    remedy = "the unit is not degrees"
+    if block is not None:
+        remedy = f"{angle:.6g}° is --angle {block.angle(degrees=angle):.4g}"
+    if sentence := angle_doubt(angle, remedy):
+        yield f"{WARNING}--{sentence}"
+
+
+def reach(angle: float, block: Block | None) -> str:
+    """Return an angle of a block in degrees, and the displacement of its top."""
+    return "" if block is None else f"{block.degrees(angle):.4g}°, top {block.top_displacement(angle):.4g} m"
+
+
+def state_in_si(state: Any, block: Block) -> str:
+    """Return the angle and the velocity of a state in ° and °/s."""
+    return f"{in_si('angle', state.angle, block)}, {in_si('velocity', state.velocity, block)}"
+
+
+def input_record(result: Motion | Verdict | LyapunovSpectrum) -> dict[str, Any]:
+    """Return the system and the initial state as a JSON object."""
+    return system_record(result.system) | {"start": attrs.asdict(result.start)}
+
+
+def system_record(system: System) -> dict[str, Any]:
+    """Return the system as a JSON object."""
+    values = quantities(system)
+    kind = {"pulse": system.forcing.kind} if isinstance(system.forcing, Pulse) else {}
+    alone = kind | {name: values[name] for name in values if not name.startswith("brace_")}
+    return alone | {"braces": None if system.braces is None else attrs.asdict(system.braces)}
+
+
+def peak_in_si(result: Motion | Verdict, block: Block) -> dict[str, float]:
+    """Return the largest angle and the displacement of the top in SI as a JSON object."""
+    return {
+        "peak_deg": float(block.degrees(result.peak)),
+        "peak_top_displacement_m": float(block.top_displacement(result.peak)),
+    }
+
+
+def size_record(block: Block) -> dict[str, float]:
+    """Return the size of a block and its units of angle and time as a JSON object."""
+    return {
+        "height_m": block.height,
+        "width_m": block.width,
+        "critical_angle_deg": float(block.degrees(1.0)),
+        "time_unit_s": block.seconds(1.0),
+    }
+
+
+def survey_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
+    """Return the block and the quantities of its survey in SI as a JSON object."""
+    entries: dict[str, Any] = {}
+    for name, each in PHYSICAL.items():
+        if name in data.coords:
+            start, stop = each.turn(block, data[name].values[[0, -1]]).tolist()
+            entries[each.key] = {"start": start, "stop": stop, "count": data.sizes[name]}
+        elif name in data.attrs:
+            entries[each.key] = float(each.turn(block, data.attrs[name]))
+    return size_record(block) | entries
+
+
+def system_in_si(system: System, block: Block) -> dict[str, Any]:
+    """Return the block and its base motion in SI as a JSON object."""
+    if isinstance(system.forcing, Pulse):
+        pulse = system.forcing
+        size, length = pulse.amplitude, {"duration_s": PHYSICAL["period"].turn(block, pulse.span)}
+    else:
+        size = system.periodic.amplitude
+        length = {"period_s": PHYSICAL["period"].turn(block, system.periodic.period)}
+    return size_record(block) | {
+        "acceleration_m_per_s2": PHYSICAL["amplitude"].turn(block, size),
+        **length,
+        "restitution_is_housners": block.has_housner_restitution,
+    }
+
+
+def equation(critical_angle: float, *, full: bool, braced: bool = False) -> str:
+    """Return the equation of motion in words, that of small angles with its errors for |θ| ≤ θcr, in rad."""
+    from rocking.motion.model_warnings import slender_errors
+
+    if full:
+        return "full"
+    worst = max(slender_errors(critical_angle, critical_angle))
+    remedy = "" if braced else " (--model full avoids this)"
+    return f"small angles; moments overestimated by up to {100.0 * worst:.1f} %{remedy}"
+
+
+def equation_line(block: Block, model: str) -> str:
+    """Return the equation of motion of a survey of one block, as a line below a table with a row per record."""
+    return f"equation of motion: {equation(block.critical_angle, full=model == 'full')}"
+
+
+def survey_warnings(block: Block, model: str) -> list[str]:
+    """Return the warnings about the block of a survey of ground motions."""
+    return block_warnings(block, (), block.restitution, full=model == "full")
+
+
+def shape_warnings(height: float, critical_angle: float, *, full: bool) -> Iterator[str]:
+    """Yield the warnings about blocks of many shapes, up to a height in m and a critical angle in rad."""
+    from rocking.motion.model_warnings import height_warnings, proportion_warnings
+
+    yield from height_warnings(height)
+    if not full:
+        yield from proportion_warnings(critical_angle, critical_angle)
+
+
+def block_warnings(
+    block: Block | None, amplitudes: Any, restitutions: Any, *, full: bool = False
+) -> list[str]:
+    """Return the warnings about the block itself, independent of its motion; none without a block."""
+    if block is None:
+        return []
+    from rocking.motion.model_warnings import block_warnings as sentences
+
+    return list(sentences(block, amplitudes, float(np.min(restitutions)), full=full))
+
+
+def warning_lines(sentences: Iterable[str]) -> list[str]:
+    """Return sentences as warning lines below a table."""
+    return [f"{WARNING}{sentence}" for sentence in sentences]
+
+
+def with_warnings(entries: dict[str, Any], sentences: Sequence[str]) -> dict[str, Any]:
+    """Return the entries about a block in JSON, with the warnings about it."""
+    return {"block": entries, "warnings": list(sentences)}
+
+
+def share_record(share: Share) -> dict[str, Any]:
+    """Return a fraction with its interval as a JSON object."""
+    return {name: getattr(share, name) for name in ("value", "low", "high", "count", "of", "unknown")}
+
+
+def multiplier_columns(multipliers: np.ndarray) -> dict[str, np.ndarray]:
+    """Return Floquet multipliers, shape (n, 2), as columns of real and imaginary parts."""
+    return {
+        f"multiplier_{number + 1}_{part}": getattr(multipliers[:, number], part)
+        for number in (0, 1)
+        for part in ("real", "imag")
+    }
+
+
+def undecided(count: int) -> Iterator[str]:
+    """Yield a warning if outcomes are undecided."""
+    if count:
+        yield f"{counted(count, 'outcome')} undecided in double precision: the rounding error may exceed what decides"
+
+
+def axes_record(variable: xr.DataArray) -> dict[str, Any]:
+    """Return the axes of a variable as a JSON object, without that of the records."""
+    return {
+        str(name): {
+            "start": float(variable[name][0]),
+            "stop": float(variable[name][-1]),
+            "count": variable.sizes[name],
+        }
+        for name in variable.dims
+        if name != "record"
+    }

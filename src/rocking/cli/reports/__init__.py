@@ -1,1 +1,0 @@
-"""Printed reports of the commands."""

@@ -1,0 +1,433 @@
+"""Reports of a motion: of `rocking simulate`, normalised or in SI, and of `rocking record`, in SI."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import attrs
+import numpy as np
+
+from rocking.cli.options import InvalidInput, option
+from rocking.cli.output import Report, Row, Text, columns
+from rocking.cli.reports import (
+    angle_warning,
+    equation,
+    in_si,
+    input_record,
+    input_rows,
+    origin,
+    peak_in_si,
+    reach,
+    size_record,
+    state_in_si,
+    system_in_si,
+    warning_lines,
+)
+from rocking.model.block import Block
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.system import State, System
+from rocking.model.text import counted, ordinal
+from rocking.model.verdict import Outcome, Verdict
+from rocking.motion.motion import has_cycles
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.cli.inputs import Request
+    from rocking.motion.motion import Motion
+
+ROWS_AT_ONCE = 100_000
+MAX_CYCLES_KEPT = 100_000
+"""Longest run whose events are kept; a longer one keeps only the counters, the peak and the final state."""
+FIRST = 200
+"""Number of initial cycles over which the validity of a non-periodic response is evaluated."""
+DIGITS_OF_DIGEST = 12
+
+
+def run(system: System, start: State, cycles: int | None, files: tuple[str, ...] = ()) -> Motion:
+    """Simulate a motion with all its events, so that the summary does not depend on the output `files`.
+
+    Events are dropped for too many cycles, and for too many events if no file needs them. A base motion of finite length
+    has no cycles: None.
+    """
+    from rocking.model.validation import TooManyEvents
+    from rocking.motion.simulate import simulate
+
+    if cycles is not None and not cycles <= MAX_CYCLES_KEPT:
+        counted = simulate(system, start, cycles=cycles, record="none")
+        if counted.cycles > MAX_CYCLES_KEPT:
+            return counted
+        cycles = counted.cycles  # the block overturned early
+    try:
+        return simulate(system, start, cycles=cycles)
+    except TooManyEvents as error:
+        if files:
+            names = ", ".join(map(option, files))
+            shorter = "" if cycles is None else "reduce --cycles, or "
+            raise InvalidInput(f"too many events for {names}: {shorter}omit {names}") from error
+        return simulate(system, start, cycles=cycles, record="none")
+
+
+def tables(motion: Motion, request: Request) -> Iterator[dict[str, Any]]:
+    """Yield tables (columns by heading) of limited length, so that memory does not grow with the motion.
+
+    There are 100 rows per cycle, or 100 rows of a motion that ends earlier. Under a sampled base acceleration there is a row
+    per sample at least. With a block, the quantities are repeated in SI.
+    """
+    from rocking.motion.motion import end_shown, sample_step
+
+    block = request.block
+    step, end = sample_step(motion), end_shown(motion)
+    count = 1 + int(end / step * (1 + 1e-12))
+    for first in range(0, count, ROWS_AT_ONCE):
+        time = np.minimum(np.arange(first, min(first + ROWS_AT_ONCE, count)) * step, end)
+        angle, velocity = motion.at(time)
+        table = columns({"time": time, "angle": angle, "velocity": velocity}, block)
+        if block is not None:
+            table["top_displacement [m]"] = block.top_displacement(angle)
+        yield table
+
+
+def data(motion: Motion, request: Request) -> xr.Dataset:
+    """Return the dataset of a motion, with units and parameters."""
+    return motion.to_xarray(block=request.block)
+
+
+# Simulation.
+
+
+def motion_text(motion: Motion, request: Request) -> Text:
+    """Return the summary."""
+    block = request.block
+    lines = [*angle_warning(motion.start.angle, block), *validity_lines(motion, block)]
+    return Text(outcome_text(motion), [*input_rows(motion, block), *motion_rows(motion, block)], lines)
+
+
+def outcome_text(motion: Motion) -> str:
+    """Return the outcome in one line."""
+    overturning, doubt = motion.overturning, f" ({motion.doubt})" if motion.doubt else ""
+    if overturning is not None:
+        if doubt:
+            return f"overturned from τ = {overturning.time:.6g}{doubt}"
+        cycle = f", in the {ordinal(overturning.cycle + 1)} cycle" if has_cycles(motion) else ""
+        return f"overturned (proved at τ = {overturning.time:.6g}{cycle})"
+    if motion.outcome == "at-rest":
+        return f"at rest permanently{doubt}"
+    if not has_cycles(motion):
+        return f"bounded up to τ = {motion.duration:.6g}{doubt}"
+    return f"bounded over {counted(motion.cycles, 'cycle')} (neither rest nor overturning was proved)"
+
+
+def motion_rows(motion: Motion, block: Block | None) -> Iterator[Row]:
+    """Yield the rows of the result."""
+    time = "" if block is None else f"{block.seconds(motion.duration):.4g} s"
+    cycles = f"{counted(motion.cycles, 'cycle')}, " if has_cycles(motion) else ""
+    yield "simulated", f"{cycles}τ = {motion.duration:.6g}", time
+    yield "impacts", f"{motion.impacts}{cut_note(motion, 'rest')}", ""
+    if motion.system.braces is not None:
+        yield "brace impacts", f"{motion.brace_hits}{cut_note(motion, 'sustained contact')}", ""
+    if motion.overturning is None:
+        yield "largest |Θ|", f"{motion.peak:.6g}", reach(motion.peak, block)
+    if not math.isnan(motion.margin):
+        at = "" if block is None else f" = {block.seconds(motion.margin_time):.4g} s"
+        yield "margin K₊", f"{motion.margin:.6g}", f"at τ = {motion.margin_time:.6g}{at}"
+    yield (
+        "final state" if motion.overturning is None else f"state when overturning was {word_for(motion)}",
+        f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
+        "" if block is None else state_in_si(motion.final, block),
+    )
+
+
+def word_for(motion: Motion) -> str:
+    """Return the word for overturning: certain, or proved for the computed motion alone."""
+    return "certain" if motion.certified else "proved"
+
+
+def cut_note(motion: Motion, end: str) -> str:
+    """Return the note on a count of impacts that is incomplete, else an empty text."""
+    return "" if motion.record == "all" else f" (without the last ones of chattering before {end})"
+
+
+def motion_record(motion: Motion, _: Request) -> dict[str, Any]:
+    """Return the summary as a JSON object."""
+    return {
+        "outcome": str(motion.outcome),
+        "overturning": None if motion.overturning is None else attrs.asdict(motion.overturning),
+        **input_record(motion),
+        "cycles": motion.cycles,
+        "duration": motion.duration,
+        "impacts": motion.impacts,
+        "brace_hits": motion.brace_hits,
+        "impacts_cut_short": motion.record != "all",
+        "peak": motion.peak,
+        **({} if has_cycles(motion) else closeness(motion)),
+        "final": attrs.asdict(motion.final),
+    }
+
+
+def motion_in_si(motion: Motion, request: Request) -> dict[str, Any]:
+    """Return the block, its base motion, its largest angle and the validity report as a JSON object; empty without a block."""
+    block = request.block
+    if block is None:
+        return {}
+    entries = system_in_si(motion.system, block) | peak_in_si(motion, block)
+    return {"block": entries, "validity": validity_record(motion, block)}
+
+
+def closeness(motion: Motion) -> dict[str, Any]:
+    """Return how close a motion came to another outcome as a JSON object; no number if the block never moves."""
+    moved = not math.isnan(motion.margin)
+    return {
+        "margin": motion.margin if moved else None,
+        "margin_time": motion.margin_time if moved else None,
+        "certified": motion.certified,
+    }
+
+
+SIMULATE = Report(
+    motion_text,
+    motion_record,
+    figure=lambda plot, motion, request: plot.overview(motion, request.block),
+    tables=tables,
+    data=data,
+    more=motion_in_si,
+)
+
+
+# Validity of the model.
+
+
+def validity_lines(motion: Motion, block: Block | None) -> list[str]:
+    """Return the lines of the validity report of a motion; none without a block."""
+    if block is None:
+        return []
+    return (
+        str(motion.validity(block)).splitlines()
+        if motion.record == "all"
+        else warning_lines([unchecked(motion)])
+    )
+
+
+def unchecked(motion: Motion) -> str:
+    """Return the sentence on a motion whose events were not kept."""
+    long = motion.cycles > MAX_CYCLES_KEPT
+    why = f"more than {MAX_CYCLES_KEPT:,} cycles" if long else "too many events to keep"
+    return f"sliding and jumping of the block were not checked: {why}"
+
+
+def friction_row(motion: Motion, block: Block) -> Iterator[Row]:
+    """Yield the row of the friction required, with its time in s, if the events were kept."""
+    if motion.record != "all":
+        return
+    validity = motion.validity(block)
+    if validity.friction is None or validity.friction_time is None:
+        yield "friction required", "not assessed"
+    else:
+        least = f"{validity.friction:.4g}" if validity.friction < math.inf else "none suffices"
+        yield (
+            "friction required",
+            f"{least} ({validity.friction_source}, t = {block.seconds(validity.friction_time):.4g} s)",
+        )
+
+
+def validity_warnings(motion: Motion, block: Block) -> list[str]:
+    """Return the warnings of the validity report of a motion as lines."""
+    return warning_lines(
+        list(motion.validity(block).warnings) if motion.record == "all" else [unchecked(motion)]
+    )
+
+
+def validity_record(motion: Motion, block: Block) -> dict[str, Any] | None:
+    """Return the validity report as a JSON object; None if the events were not kept."""
+    return attrs.asdict(motion.validity(block)) if motion.record == "all" else None
+
+
+def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
+    """Return a description of the motion over which validity is evaluated, and the motion.
+
+    The motion is one period of the orbit or, without orbit, the first cycles.
+    """
+    system, orbit = verdict.system, verdict.orbit
+    if orbit is None:
+        motion = run(system, verdict.start, min(max(verdict.cycles, 1), FIRST))
+        return f"model validity over the first {counted(motion.cycles, 'cycle')}", motion
+    begun = attrs.evolve(system, forcing=attrs.evolve(system.periodic, phase=orbit.phase))
+    motion = run(begun, orbit.state, orbit.period)
+    return "model validity over one response period (τ measured from its start)", motion
+
+
+# Ground motion.
+
+
+def record_text(motion: Motion, request: Request) -> Text:
+    """Return the summary, with the warnings of the reader."""
+    block, ground = block_of(request), request.records
+    rows = [*of_ground(ground), *of_block(motion, block), *record_rows(motion, block)]
+    lines = warning_lines([*request.warnings, *undecided(motion)])
+    lines += [*angle_warning(motion.start.angle, block), *validity_warnings(motion, block)]
+    return Text(record_outcome(motion, block), rows, lines)
+
+
+def block_of(request: Request) -> Block:
+    """Return the block of a request in SI."""
+    assert request.block is not None
+    return request.block
+
+
+def record_figure(plot: Any, motion: Motion, request: Request) -> Any:
+    """Return the overview of a motion under the name of its record."""
+    figure = plot.overview(motion, request.block)
+    figure.suptitle(heading(request.records), fontsize="small")
+    return figure
+
+
+def heading(ground: GroundMotion) -> str:
+    """Return the name of a record with its component and its peak, for a figure."""
+    return f"{named(ground)}, PGA {ground.pga / GRAVITY:.3g} g"
+
+
+def named(ground: GroundMotion) -> str:
+    """Return the name of a record with its component."""
+    return ", ".join(filter(None, (ground.name, ground.component)))
+
+
+def record_outcome(motion: Motion, block: Block) -> str:
+    """Return the outcome in one line, with its time in s."""
+    doubt = f" ({motion.doubt})" if motion.doubt else ""
+    if motion.overturning is not None:
+        since = ": certain" if motion.certified else ""
+        return f"overturned{since} from t = {block.seconds(motion.overturning.time):.4g} s{doubt}"
+    if motion.outcome is not Outcome.AT_REST:
+        return f"bounded over {block.seconds(motion.duration):.4g} s (neither rest nor overturning was proved){doubt}"
+    if motion.record != "all":
+        return f"at rest permanently{doubt}"
+    if not len(motion.events):
+        return f"at rest throughout{doubt}"
+    return f"at rest permanently from t = {block.seconds(float(motion.events['time'][-1])):.4g} s{doubt}"
+
+
+def undecided(motion: Motion) -> Iterator[str]:
+    """Yield a warning if rounding may have changed the outcome."""
+    if not motion.certified and motion.system.critical_angle is None:
+        yield "the outcome is undecided in double precision: the rounding error may exceed what decides it"
+
+
+def of_ground(ground: GroundMotion) -> Iterator[Row]:
+    """Yield the rows of the ground motion."""
+    yield "motion", named(ground)
+    file = ground.file
+    if file is not None:
+        parts = (file.name, file.format, file.channel, f"SHA-256 {file.sha256[:DIGITS_OF_DIGEST]}…")
+        yield "file", ", ".join(filter(None, parts))
+    count = ground.acceleration.size
+    yield "samples", f"{count}, step {ground.step:g} s, {ground.duration:.6g} s"
+    treated = "as in the file" if ground.baseline == "none" else f"{ground.baseline} removed"
+    yield "baseline", treated
+    if ground.factor != 1.0:
+        yield "scaled by", f"{ground.factor:.6g}"
+    yield "PGA", f"{ground.pga:.4g} m/s² = {ground.pga / GRAVITY:.4g} g"
+    if file is not None and file.header_pga is not None:
+        agrees = "agrees with" if file.pga_agrees else "differs from"
+        yield "PGA in the header", f"{file.header_pga:.4g} m/s², {agrees} the samples, {file.pga:.4g} m/s²"
+    yield "PGV", f"{ground.pgv:.4g} m/s"
+    yield "PGD", f"{ground.pgd:.4g} m, drift {ground.displacement[-1]:.4g} m at the end"
+    yield "Arias intensity", f"{ground.arias_intensity:.4g} m/s"
+    yield "significant duration", f"{ground.significant_duration:.4g} s"
+
+
+def of_block(motion: Motion, block: Block) -> Iterator[Row]:
+    """Yield the rows of the block and its initial state."""
+    yield "block", f"{block.size}, Io/(MR²) = {block.inertia_ratio:.4g}"
+    yield "critical angle", f"{block.degrees(1.0):.4g}°"
+    full = motion.system.critical_angle is not None
+    braced = motion.system.braces is not None
+    yield "equation of motion", equation(block.critical_angle, full=full, braced=braced)
+    yield "time unit 1/α", f"{block.seconds(1.0):.4g} s"
+    yield "lift-off from rest", f"above {in_si('amplitude', motion.system.lift_off, block)}"
+    yield "restitution", f"e = {block.restitution:.6g}, {origin(block)}"
+    braces = motion.system.braces
+    if braces is not None:
+        yield "braces", f"{block.degrees(braces.angle):.4g}°, r = {braces.restitution:.6g}"
+    yield "initial state", state_in_si(motion.start, block)
+
+
+def record_rows(motion: Motion, block: Block) -> Iterator[Row]:
+    """Yield the rows of the result."""
+    yield "impacts", counted_impacts(motion)
+    if motion.overturning is None:
+        yield "largest |θ|", f"{reach(motion.peak, block)}, {motion.peak:.4g} θcr"
+    yield "margin K₊", margin_text(motion, block)
+    yield from friction_row(motion, block)
+
+
+def counted_impacts(motion: Motion) -> str:
+    """Return the numbers of impacts and, with braces, of brace impacts."""
+    braced = motion.system.braces is not None
+    return f"{motion.impacts}" + (f", and {counted(motion.brace_hits, 'brace impact')}" if braced else "")
+
+
+def margin_text(motion: Motion, block: Block) -> str:
+    """Return the margin with its time, in words."""
+    if math.isnan(motion.margin):
+        if motion.system.critical_angle is not None:
+            return "undefined for the full equation of motion"
+        return "undefined " + ("between braces" if motion.system.braces else "for a block that never moves")
+    speed = in_si("velocity", abs(motion.margin), block)
+    how = (
+        f"had {speed} more than it needed to overturn"
+        if motion.margin >= 0
+        else f"lacked {speed} to overturn"
+    )
+    if motion.margin < 0 and motion.outcome is Outcome.OVERTURNED:
+        how += ", but overturned later"
+    return f"{motion.margin:.4g}: at t = {block.seconds(motion.margin_time):.4g} s the block {how}"
+
+
+def record_record(motion: Motion, request: Request) -> dict[str, Any]:
+    """Return the summary as a JSON object."""
+    block, ground = block_of(request), request.records
+    overturning = motion.overturning
+    return {
+        "outcome": str(motion.outcome),
+        "model": "slender" if motion.system.critical_angle is None else "full",
+        "certified": motion.certified,
+        "overturning_s": None if overturning is None else float(block.seconds(overturning.time)),
+        "ground_motion": {
+            "name": ground.name,
+            "component": ground.component,
+            "file": None if ground.file is None else attrs.asdict(ground.file),
+            "pga_agrees": None if ground.file is None else ground.file.pga_agrees,
+            "samples": ground.acceleration.size,
+            "step_s": ground.step,
+            "duration_s": ground.duration,
+            "baseline": ground.baseline,
+            "factor": ground.factor,
+            "pga_m_per_s2": ground.pga,
+            "pgv_m_per_s": ground.pgv,
+            "pgd_m": ground.pgd,
+            "drift_m": float(ground.displacement[-1]),
+            "arias_intensity_m_per_s": ground.arias_intensity,
+            "significant_duration_s": ground.significant_duration,
+        },
+        "block": size_record(block)
+        | {"inertia_ratio": block.inertia_ratio, "restitution_is_housners": block.has_housner_restitution},
+        **input_record(motion),
+        "duration": motion.duration,
+        "duration_s": float(block.seconds(motion.duration)),
+        "impacts": motion.impacts,
+        "brace_hits": motion.brace_hits,
+        "impacts_cut_short": motion.record != "all",
+        "peak": motion.peak,
+        **peak_in_si(motion, block),
+        "margin": motion.margin,
+        "margin_time_s": float(block.seconds(motion.margin_time)),
+        "final": attrs.asdict(motion.final),
+        "validity": validity_record(motion, block),
+        "warnings": [*request.warnings, *undecided(motion)],
+    }
+
+
+RECORD = Report(record_text, record_record, figure=record_figure, tables=tables, data=data)

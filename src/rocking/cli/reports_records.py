@@ -1,0 +1,477 @@
+"""Reports of surveys of ground motions: rocking spectra, overturning sets, fragility and sensitivity."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any
+
+import attrs
+import numpy as np
+
+from rocking.cli.output import Report, Row, Text
+from rocking.cli.reports import (
+    MAX_ROWS,
+    axes_record,
+    equation,
+    equation_line,
+    shape_warnings,
+    size_record,
+    survey_warnings,
+    undecided,
+    warning_lines,
+)
+from rocking.model.block import PHYSICAL, block_attributes
+from rocking.model.record_results import Fragility, OverturningSet, Sensitivity, limit_name
+from rocking.model.record_set import RecordSet
+from rocking.model.text import counted, percent, percent_with_ends
+from rocking.survey.export import counts, tables
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.cli.inputs import Request
+
+
+def with_equation(result: Any, rows: Iterable[Row], title: str, sentences: Iterable[str]) -> Text:
+    """Return the text of a survey of one block, with the equation of motion and the warnings."""
+    line = equation_line(result.block, result.dataset.attrs["model"])
+    return Text(title, rows, [line, *warning_lines(sentences)])
+
+
+def block_data(result: Any, _: Request) -> xr.Dataset:
+    """Return the dataset with the block in its attributes."""
+    return result.dataset.assign_attrs(block_attributes(result.block))
+
+
+# Rocking spectrum.
+
+
+VARYING = ("size", "slenderness", "restitution", "scale")
+
+
+MOST_NAMES = 3
+
+
+def spectrum_text(data: xr.Dataset, request: Request) -> Text:
+    """Return the fractions of the outcomes, with the warnings of the reader."""
+    outcomes = counts(data, "outcome")
+    total = sum(outcomes.values())
+    rows = [*spectrum_rows(data, request.records), *outcome_rows(outcomes, total), *largest_rows(data)]
+    title = f"rocking spectrum, {counted(total, 'run')}"
+    return Text(title, rows, warning_lines([*request.warnings, *spectrum_warnings(data)]))
+
+
+def spectrum_warnings(data: xr.Dataset) -> Iterator[str]:
+    """Yield the warnings about undecided outcomes, and about the shapes of the blocks."""
+    yield from undecided(counts(data, "certified")["undecided"])
+    size, slenderness = values(data, "size").max(), values(data, "slenderness")
+    height = float(2.0 * size * np.cos(slenderness.min()))
+    yield from shape_warnings(height, float(slenderness.max()), full=data.attrs["model"] == "full")
+
+
+def values(data: xr.Dataset, name: str) -> np.ndarray:
+    """Return the values of a quantity as an array."""
+    return np.atleast_1d(data[name].values if name in data.dims else data.attrs[name])
+
+
+def spectrum_rows(data: xr.Dataset, records: RecordSet) -> Iterator[Row]:
+    """Yield the rows of the records and the quantities."""
+    names = (
+        ", ".join(records.names)
+        if len(records) <= MOST_NAMES
+        else f"{records.names[0]}, …, {records.names[-1]}"
+    )
+    yield "records", f"{len(records)}: {names}"
+    if data.attrs["intensity"] == "pga-g":
+        yield "scaled to", f"PGA {range_text(values(data, 'scale'))} g"
+    else:
+        pga = np.array([motion.pga for motion in records])
+        yield "PGA", f"{range_text(pga)} m/s², times {range_text(values(data, 'scale'))}"
+    yield "size R", f"{range_text(values(data, 'size'))} m"
+    yield "critical angle", f"{range_text(np.degrees(values(data, 'slenderness')))}°"
+    widest, full = float(values(data, "slenderness").max()), data.attrs["model"] == "full"
+    yield "equation of motion", equation(widest, full=full)
+    named = "restitution" in (*data.dims, *data.attrs)
+    yield (
+        "restitution",
+        range_text(values(data, "restitution")) if named else "Housner's for each slenderness",
+    )
+
+
+def range_text(numbers: Any) -> str:
+    """Return the smallest and the largest number, with their count if there are several."""
+    low, high = float(np.min(numbers)), float(np.max(numbers))
+    if np.size(numbers) == 1 or low == high:
+        return f"{low:.6g}"
+    return f"{low:.6g} to {high:.6g} ({np.size(numbers):,})"
+
+
+def outcome_rows(outcomes: dict[str, int], total: int) -> Iterator[Row]:
+    """Yield the fraction of each outcome."""
+    for outcome, count in outcomes.items():
+        if count:
+            yield outcome, f"{percent(count / total)}, {counted(count, 'run')}"
+
+
+def largest_rows(data: xr.Dataset) -> Iterator[Row]:
+    """Yield the rows of the largest angle and of the largest size."""
+    summary = largest_record(data)
+    if summary["largest_angle_deg"] is not None:
+        yield (
+            "largest |θ| of blocks that stand",
+            f"{summary['largest_angle_deg']:.4g}°, {summary['largest_angle']:.4g} θcr",
+        )
+    if summary["largest_overturned_size_m"] is not None:
+        yield "largest R that overturns", f"{summary['largest_overturned_size_m']:.6g} m"
+
+
+def largest_record(data: xr.Dataset) -> dict[str, Any]:
+    """Return the largest angles of blocks that stand, and the largest size that overturns; None if there is none."""
+    peak = data.peak
+    degrees = peak * np.degrees(
+        data["slenderness"] if "slenderness" in data.dims else data.attrs["slenderness"]
+    )
+    stands = np.isfinite(peak.values)
+    fell = None
+    if "size" in data.dims and not stands.all():
+        over = np.isinf(peak).any([name for name in peak.dims if name != "size"])
+        fell = float(data["size"].values[over.values].max())
+    return {
+        "largest_angle": float(peak.values[stands].max()) if stands.any() else None,
+        "largest_angle_deg": float(degrees.values[stands].max()) if stands.any() else None,
+        "largest_overturned_size_m": fell,
+    }
+
+
+def spectrum_tables(data: xr.Dataset, _: Request) -> Iterator[dict[str, np.ndarray]]:
+    """Yield columns by heading, with units: the record, the quantities that vary, and the resultss."""
+    for table in tables(data.drop_vars(["pga", "frequency_parameter"], errors="ignore")):
+        headed: dict[str, np.ndarray] = {}
+        if "record" in table:
+            number = table.pop("record").astype(int)
+            headed = {"record": number, "name": data["name"].values[number]}
+        for name, column in table.items():
+            unit = PHYSICAL[name].normalised if name in PHYSICAL else data[name].attrs.get("units", "1")
+            headed[name if unit in ("1", "") else f"{name} [{unit}]"] = column
+        slenderness = table["slenderness"] if "slenderness" in table else data.attrs["slenderness"]
+        headed["peak [deg]"] = table["peak"] * np.degrees(slenderness)
+        yield headed
+
+
+def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
+    """Return the result as a JSON object."""
+    records = request.records
+    return {
+        "records": [
+            {
+                "name": name,
+                "pga_m_per_s2": motion.pga,
+                "sha256": None if motion.file is None else motion.file.sha256,
+            }
+            for name, motion in zip(records.names, records, strict=True)
+        ],
+        "axes": axes_record(data.peak),
+        **{
+            name: data.attrs[name]
+            for name in (*VARYING, "inertia_ratio", "model", "intensity")
+            if name in data.attrs
+        },
+        "runs": math.prod(data.peak.shape),
+        "outcomes": counts(data, "outcome"),
+        "undecided": counts(data, "certified")["undecided"],
+        **largest_record(data),
+        "warnings": [*request.warnings, *spectrum_warnings(data)],
+    }
+
+
+SPECTRUM = Report(
+    spectrum_text,
+    spectrum_record,
+    figure=lambda plot, data, _: plot.rocking_spectrum(data),
+    tables=spectrum_tables,
+    data=lambda data, _: data.load(),
+)
+
+
+# Fragility.
+
+
+FRAGILITY_COLUMNS = ("fraction", "fraction_low", "fraction_high", "fit", "fit_low", "fit_high")
+
+
+FEW = 10
+"""Number of records below which the report warns."""
+
+
+def fragility_text(result: Fragility, request: Request) -> Text:
+    """Return the fits and the probabilities."""
+    return with_equation(result, fragility_rows(result), str(result), fragility_warnings(result, request))
+
+
+def few_records(count: int) -> Iterator[str]:
+    """Yield a warning if the records are too few for intervals."""
+    if count < FEW:
+        yield f"{counted(count, 'record')} can hardly say how much records differ: use {FEW} or more"
+
+
+def fragility_warnings(result: Fragility, request: Request) -> Iterator[str]:
+    """Yield the warnings of the reader, about few records, undecided runs and the block."""
+    data = result.dataset
+    yield from request.warnings
+    yield from few_records(data.sizes["record"])
+    undecided = int((data.certified == 0).sum())
+    if undecided:
+        yield f"{undecided:,} of {data.peak.size:,} runs are undecided in double precision; the intervals cover both outcomes"
+    yield from survey_warnings(result.block, data.attrs["model"])
+
+
+def level_heading(result: Fragility, *brackets: str) -> str:
+    """Return symbol and unit of the levels."""
+    attributes = result.dataset.scale.attrs
+    unit = "" if attributes["units"] in ("", "1") else f" {brackets[0]}{attributes['units']}{brackets[1]}"
+    return f"{attributes['symbol']}{unit}"
+
+
+def fragility_rows(result: Fragility) -> Iterator[Row]:
+    """Yield the probabilities of each limit and the fits."""
+    data = result.dataset
+    limits = data.limit.values.tolist()
+    yield (level_heading(result, "(", ")"), *(limit_heading(result, limit) for limit in limits))
+    for place, level in enumerate(data.scale.values.tolist()):
+        yield (
+            f"{level:.4g}",
+            *(
+                percent_with_ends(value, low, high)
+                for value, low, high in zip(
+                    *(data[name].values[:, place].tolist() for name in FRAGILITY_COLUMNS[:3]), strict=True
+                )
+            ),
+        )
+    yield ("median", *(fit_text(fit.median, fit.median_low, fit.median_high) for fit in result.fits))
+    yield (
+        "dispersion",
+        *(fit_text(fit.dispersion, fit.dispersion_low, fit.dispersion_high) for fit in result.fits),
+    )
+
+
+def limit_heading(result: Fragility, limit: float) -> str:
+    """Return a limit of the angle as text."""
+    return (
+        limit_name(limit)
+        if math.isinf(limit)
+        else f"|θ| > {result.block.degrees(limit):.3g}° = {limit:g} θcr"
+    )
+
+
+def fit_text(value: float, low: float, high: float) -> str:
+    """Return a parameter of a fit with its interval."""
+    if math.isnan(value):
+        return "–"
+    return f"{value:.3g} ({low:.3g}–{'∞' if math.isinf(high) else f'{high:.3g}'})"
+
+
+def fragility_tables(result: Fragility, _: Request) -> Iterator[dict[str, Any]]:
+    """Yield one table for each limit."""
+    data = result.dataset
+    for number, limit in enumerate(data.limit.values.tolist()):
+        yield {
+            "limit [theta_cr]": np.full(data.sizes["scale"], limit),
+            "limit [deg]": np.full(data.sizes["scale"], result.block.degrees(limit)),
+            level_heading(result, "[", "]"): data.scale.values,
+        } | {name: data[name].values[number] for name in FRAGILITY_COLUMNS}
+
+
+def fragility_record(result: Fragility, _: Request) -> dict[str, Any]:
+    """Return the result as a JSON object; an infinite limit is null."""
+    data = result.dataset
+    curves = [
+        attrs.asdict(fit)
+        | {"limit_degrees": float(result.block.degrees(fit.limit))}
+        | {name: data[name].values[number].tolist() for name in FRAGILITY_COLUMNS}
+        for number, fit in enumerate(result.fits)
+    ]
+    return {
+        "block": {
+            "height_m": result.block.height,
+            "width_m": result.block.width,
+            "restitution": result.block.restitution,
+        },
+        "records": data.name.values.tolist(),
+        "records_sha256": data.attrs["records_sha256"],
+        "samples": data.sizes.get("sample", 1),
+        "undecided": int((data.certified == 0).sum()),
+        "model": data.attrs["model"],
+        "intensity": data.attrs["intensity"],
+        "unit": data.scale.attrs["units"],
+        "levels": data.scale.values.tolist(),
+        "rocking": data.rocking.values.tolist(),
+        "curves": curves,
+    }
+
+
+FRAGILITY = Report(
+    fragility_text,
+    fragility_record,
+    figure=lambda plot, result, _: plot.fragility(result),
+    tables=fragility_tables,
+    data=lambda result, _: result.dataset,
+    more=lambda result, request: {"warnings": list(fragility_warnings(result, request))},
+)
+
+
+# Sensitivity.
+
+
+SENSITIVITY_COLUMNS = ("change", "share", "share_low", "share_high", "flipped", "runs", "undecided")
+
+
+def sensitivity_text(result: Sensitivity, request: Request) -> Text:
+    """Return the fraction of the verdicts that each change reverses."""
+    data = result.dataset
+    runs, records = counted(data.overturned.size, "run"), counted(data.sizes["record"], "record")
+    title = f"verdicts that small changes reverse, of {runs} of {records}"
+    return with_equation(result, sensitivity_rows(result), title, sensitivity_warnings(result, request))
+
+
+def sensitivity_warnings(result: Sensitivity, request: Request) -> Iterator[str]:
+    """Yield the warnings of the reader, about few records, undecided runs and the block."""
+    data = result.dataset
+    yield from request.warnings
+    yield from few_records(data.sizes["record"])
+    count = int(data.undecided.max())
+    if count:
+        yield f"{counted(count, 'run')} undecided in double precision; the intervals cover both outcomes"
+    yield from survey_warnings(result.block, data.attrs["model"])
+
+
+def sensitivity_rows(result: Sensitivity) -> Iterator[Row]:
+    """Yield one row per change."""
+    yield "change", "fraction reversed", "runs"
+    for change, share, low, high, flipped, *_ in changes(result):
+        yield change, percent_with_ends(share, low, high), f"{flipped:,}"
+
+
+def changes(result: Sensitivity) -> Iterator[tuple[Any, ...]]:
+    """Return the values of each change."""
+    return zip(*(result.dataset[name].values.tolist() for name in SENSITIVITY_COLUMNS), strict=True)
+
+
+def sensitivity_record(result: Sensitivity, request: Request) -> dict[str, Any]:
+    """Return the result as a JSON object."""
+    data = result.dataset
+    return {
+        "block": size_record(result.block) | {"restitution": result.block.restitution},
+        "model": data.attrs["model"],
+        "intensity": data.attrs["intensity"],
+        "levels": data.scale.values.tolist(),
+        "records": data.name.values.tolist(),
+        "records_sha256": data.attrs["records_sha256"],
+        "overturned": int(data.overturned.sum()),
+        "changes": [dict(zip(SENSITIVITY_COLUMNS, each, strict=True)) for each in changes(result)],
+        "warnings": list(sensitivity_warnings(result, request)),
+    }
+
+
+SENSITIVITY = Report(
+    sensitivity_text,
+    sensitivity_record,
+    tables=lambda result, _: [{name: result.dataset[name].values for name in SENSITIVITY_COLUMNS}],
+    data=block_data,
+)
+
+
+# Overturning set.
+
+
+def set_text(result: OverturningSet, request: Request) -> Text:
+    """Return the overturning levels of each record."""
+    return with_equation(result, set_rows(result), str(result), set_warnings(result, request))
+
+
+def set_warnings(result: OverturningSet, request: Request) -> Iterator[str]:
+    """Yield the warnings of the reader, about undecided switches and the block."""
+    yield from request.warnings
+    count = result.undecided.size
+    if count:
+        yield f"{count:,} of {result.switches.size:,} switches are undecided in double precision"
+    yield from survey_warnings(result.block, result.dataset.attrs["model"])
+
+
+def set_rows(result: OverturningSet) -> Iterator[Row]:
+    """Yield one row per record."""
+    unit = "" if result.measure.unit in ("", "1") else f", {result.measure.unit}"
+    yield (
+        "record",
+        f"lowest found{unit}",
+        "intervals",
+        "overturning share of the range",
+        f"first intervals{unit}",
+    )
+    for number, name in list(enumerate(result.records.names))[:MAX_ROWS]:
+        intervals = result.intervals(number)
+        lowest = result.lowest[number]
+        first = ", ".join(f"{low:.5g} to {high:.5g}" for low, high in intervals[:3].tolist())
+        yield (
+            name,
+            "none" if math.isnan(lowest) else f"{lowest:.6g}",
+            str(len(intervals)),
+            percent(float(result.share[number])),
+            first + ", …" * (len(intervals) > 3),
+        )
+    left = len(result.records) - MAX_ROWS
+    if left > 0:
+        yield (f"and {left} more (all of them with --json, --netcdf or --plot)", "", "", "", "")
+
+
+def switches(result: OverturningSet) -> dict[str, Any]:
+    """Return the columns of the switches, with units in the headings of levels."""
+    unit, rows = result.measure.unit or "1", result.switches
+    levels = {"level", "certified_below", "certified_above"}
+    names = np.array(result.records.names)[rows["record"]]
+    headed = {f"{name} [{unit}]" if name in levels else name: rows[name] for name in rows.dtype.names or ()}
+    return {"name": names} | headed
+
+
+def set_record(result: OverturningSet, request: Request) -> dict[str, Any]:
+    """Return the result as a JSON object."""
+    block, data, rows = result.block, result.dataset, result.switches
+    return {
+        "intensity": data.attrs["intensity"],
+        "unit": result.measure.unit,
+        "levels": {
+            "start": float(result.scales[0]),
+            "stop": float(result.scales[-1]),
+            "count": int(result.scales.size),
+        },
+        "spacing": result.spacing,
+        "block": size_record(block)
+        | {"restitution": block.restitution, "inertia_ratio": block.inertia_ratio},
+        "model": data.attrs["model"],
+        "angle": data.attrs["angle"],
+        "polarity": data.attrs["polarity"],
+        "records_sha256": data.attrs["records_sha256"],
+        "records": [
+            {
+                "name": name,
+                "lowest": float(result.lowest[number]),
+                "share": float(result.share[number]),
+                "intervals": result.intervals(number).tolist(),
+                "switches": [
+                    dict(zip(rows.dtype.names or (), each, strict=True))
+                    for each in rows[rows["record"] == number].tolist()
+                ],
+            }
+            for number, name in enumerate(result.records.names)
+        ],
+        "warnings": list(set_warnings(result, request)),
+    }
+
+
+OVERTURNING_SET = Report(
+    set_text,
+    set_record,
+    figure=lambda plot, result, _: plot.overturning_set(result),
+    tables=lambda result, _: [switches(result)],
+    data=block_data,
+)

@@ -1,0 +1,608 @@
+"""Reports of surveys of systems: maps, basins, safe basins, overturning amplitudes and overturning spectra."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import attrs
+import numpy as np
+
+from rocking.cli.options import QUANTITIES, START
+from rocking.cli.output import Report, Row, Text, columns, with_block, with_fixed
+from rocking.cli.reports import (
+    MAX_ROWS,
+    angle_warning,
+    axes_record,
+    block_warnings,
+    in_si,
+    share_record,
+    survey_in_si,
+    system_in_si,
+    system_record,
+    system_rows,
+    undecided,
+    warning_lines,
+    with_warnings,
+)
+from rocking.model.block import PHYSICAL, Block
+from rocking.model.block_formulas import GRAVITY
+from rocking.model.survey_results import BasinMap, OverturningCurve, SafeBasin, UncertaintyExponent
+from rocking.model.system import System
+from rocking.model.text import counted, percent
+from rocking.model.verdict import Criterion, Outcome
+from rocking.survey.export import counts, tables, to_netcdf
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.cli.inputs import Request
+
+COUNTS = ("max_cycles", "max_period")
+DRAWN = ("curves", "symbols")
+"""Options of the figure of a map."""
+
+
+def values(data: xr.Dataset, name: str) -> np.ndarray:
+    """Return the values of a quantity that varies or is fixed, as an array."""
+    return np.atleast_1d(data[name].values if name in data.coords else data.attrs[name])
+
+
+def data_warnings(data: xr.Dataset, block: Block | None) -> list[str]:
+    """Return the warnings about the block of a survey."""
+    full = "critical_angle" in (*data.coords, *data.attrs)
+    return block_warnings(block, values(data, "amplitude"), values(data, "restitution"), full=full)
+
+
+def data_in_si(data: xr.Dataset, request: Request) -> dict[str, Any]:
+    """Return the block, the quantities and the warnings of a survey as a JSON object; empty without a block."""
+    block = request.block
+    return {} if block is None else with_warnings(survey_in_si(data, block), data_warnings(data, block))
+
+
+# Map.
+
+
+def map_text(data: xr.Dataset, request: Request) -> Text:
+    """Return the fractions of the response types."""
+    block = request.block
+    size = " × ".join(f"{data.sizes[name]:,}" for name in data.kind.dims)
+    farthest = float(max(values(data, "angle"), key=abs))
+    lines = [*angle_warning(farthest, block), *warning_lines(data_warnings(data, block))]
+    return Text(f"parametric map, {size} points", [*map_rows(data, block), *response_rows(data)], lines)
+
+
+def map_rows(data: xr.Dataset, block: Block | None) -> Iterator[Row]:
+    """Yield the rows of the quantities."""
+    for name in map(str, data.kind.dims):
+        first, last = data[name].values[[0, -1]]
+        yield name, f"{first:.6g} to {last:.6g}", in_si(name, (first, last), block)
+    for name in (*QUANTITIES, "max_cycles"):
+        if name in data.attrs:
+            value = data.attrs[name]
+            yield name.replace("_", " "), f"{value:.6g}", in_si(name, value, block)
+
+
+def response_rows(data: xr.Dataset) -> Iterator[Row]:
+    """Yield the fraction of each response, and of each reason of an undetermined one."""
+    kinds, criteria = counts(data, "kind"), counts(data, "evidence")
+    total = sum(kinds.values())
+    for kind, count in kinds.items():
+        if count:
+            yield kind, percent(count / total), counted(count, "point")
+    for criterion in Criterion:
+        count = criteria[str(criterion)]
+        if criterion.why and count:
+            yield f"  {criterion}", percent(count / total), f"{counted(count, 'point')}: {criterion.why}"
+
+
+def map_record(data: xr.Dataset, _: Request) -> dict[str, Any]:
+    """Return the result as a JSON object."""
+    kinds = counts(data, "kind")
+    return {
+        "axes": axes_record(data.kind),
+        **{name: data.attrs[name] for name in (*QUANTITIES, *COUNTS) if name in data.attrs},
+        "points": sum(kinds.values()),
+        "kinds": kinds,
+        "evidence": counts(data, "evidence"),
+    }
+
+
+def map_tables(data: xr.Dataset, request: Request) -> Iterator[dict[str, Any]]:
+    """Yield one row per point: its system and all variables, flags as words; with a block also in SI."""
+    for table in tables(data):
+        yield columns(with_fixed(table, data.kind.dims, data.attrs), request.block)
+
+
+MAP = Report(
+    map_text,
+    map_record,
+    figure=lambda plot, data, request: plot.parametric_map(
+        data,
+        block=request.block,
+        **{name: request.options[name] for name in DRAWN if name in request.options},
+    ),
+    tables=map_tables,
+    data=lambda data, request: with_block(data, request.block),
+    more=data_in_si,
+    write_data=to_netcdf,
+)
+
+
+# Basins.
+
+
+def basins_text(basins: BasinMap, request: Request) -> Text:
+    """Return the attractors, their area fractions and the uncertainty exponents of the boundaries."""
+    starts = f"{basins.fractions[0].of:,} initial states"
+    if "sample" in basins.dataset.dims:
+        starts += ", random within both ranges"
+    title = f"basins of {starts}: {counted(len(basins.attractors), 'attractor')}"
+    rows = [*system_rows(basins.system, request.block), *basins_rows(basins)]
+    return Text(title, rows, warning_lines(basins_warnings(basins, request.block)))
+
+
+def basins_warnings(basins: BasinMap, block: Block | None) -> list[str]:
+    """Return the warnings about the block."""
+    system = basins.system
+    full = system.critical_angle is not None
+    return block_warnings(block, system.periodic.amplitude, system.restitution, full=full)
+
+
+def basins_rows(result: BasinMap) -> Iterator[Row]:
+    """Yield one row per attractor, then the exponents."""
+    for each, share in list(zip(result.attractors, result.fractions, strict=True))[:MAX_ROWS]:
+        yield (
+            each.name,
+            str(share),
+            f"e.g. from Θ = {each.verdict.start.angle:.6g}, Θ' = {each.verdict.start.velocity:.6g}",
+        )
+    if len(result.attractors) > MAX_ROWS:
+        yield "other attractors", f"{len(result.attractors) - MAX_ROWS}", ""
+    names = {
+        "boundary of overturning": result.uncertainty_exponent,
+        "all boundaries": result.attractor_exponent,
+    }
+    for name, exponent in names.items():
+        if exponent is not None:
+            yield name, f"uncertainty exponent {exponent}", exponent.meaning
+    if tangency := tangled_from(result.system):
+        yield (
+            "theoretical boundary",
+            f"fractal above A* = {tangency:.6g}",
+            "the manifolds of the saddles intersect",
+        )
+
+
+def tangled_from(system: System) -> float | None:
+    """Return A* if the boundary of overturning is provably fractal, A* < A < √(1 + Ω²), else None."""
+    from rocking.theory import heteroclinic_amplitude
+
+    forcing = system.periodic
+    if system.braces is not None or not 0.0 < system.restitution < 1.0:
+        return None
+    tangency = float(heteroclinic_amplitude(forcing.period, system.restitution))
+    return tangency if tangency < forcing.amplitude < math.hypot(1.0, forcing.frequency) else None
+
+
+def basins_tables(result: BasinMap, request: Request) -> Iterator[dict[str, Any]]:
+    """Yield columns by heading: the initial state, its attractor as a number and by name, and all other variables."""
+    names = np.array([each.name for each in result.attractors])
+    # Random initial states lie along one dimension, and their angles and velocities are no axes.
+    data = result.dataset.reset_coords([name for name in START if name not in result.dataset.dims])
+    data["attractor"] = data["attractor"].drop_attrs()
+    for table in tables(data):
+        first = {name: table[name] for name in (*START, "attractor")}
+        others = {name: column for name, column in table.items() if name not in (*first, "sample")}
+        row = first | {"name": names[first["attractor"]]} | others
+        yield columns(row, request.block)
+
+
+def basins_record(result: BasinMap, _: Request) -> dict[str, Any]:
+    """Return the result as a JSON object."""
+    return {
+        **system_record(result.system),
+        "starts": result.fractions[0].of,
+        "attractors": [
+            {
+                "name": each.name,
+                "kind": str(each.kind),
+                "fraction": share_record(share),
+                "response_period": each.verdict.period,
+                "impacts_per_period": each.verdict.impacts_per_period,
+                "symmetric": each.verdict.symmetric,
+                "start": attrs.asdict(each.verdict.start),
+            }
+            for each, share in zip(result.attractors, result.fractions, strict=True)
+        ],
+        "uncertainty_exponent": exponent_record(result.uncertainty_exponent),
+        "attractor_exponent": exponent_record(result.attractor_exponent),
+    }
+
+
+def exponent_record(exponent: UncertaintyExponent | None) -> dict[str, Any] | None:
+    """Return an exponent with its interval as a JSON object."""
+    if exponent is None:
+        return None
+    return {name: getattr(exponent, name) for name in ("value", "low", "high", "misfit", "meaning")}
+
+
+def basins_in_si(basins: BasinMap, request: Request) -> dict[str, Any]:
+    """Return the block and the warnings as a JSON object; empty without a block."""
+    block = request.block
+    if block is None:
+        return {}
+    return with_warnings(system_in_si(basins.system, block), basins_warnings(basins, block))
+
+
+BASINS = Report(
+    basins_text,
+    basins_record,
+    figure=lambda plot, basins, request: plot.basins(basins, block=request.block),
+    tables=basins_tables,
+    data=lambda basins, request: with_block(basins.dataset, request.block),
+    more=basins_in_si,
+)
+
+
+# Safe basin.
+
+
+KEY = PHYSICAL["amplitude"].key
+
+
+THRESHOLDS = {"heteroclinic": "exact tangency A*", "melnikov": "Melnikov's A_M"}
+
+
+def safe_text(result: SafeBasin, request: Request) -> Text:
+    """Return the safe fraction at each amplitude."""
+    block = request.block
+    lines = [*tangency_lines(result, block), *warning_lines(data_warnings(result.dataset, block))]
+    return Text(str(result), safe_rows(result, block), lines)
+
+
+def safe_rows(result: SafeBasin, block: Block | None) -> Iterator[Row]:
+    """Yield one row per amplitude; with a block, also in SI."""
+    in_units = () if block is None else ("m/s²", "g")
+    yield ("amplitude A", "safe fraction", "undetermined", *in_units)
+    amplitudes = result.dataset.amplitude.values
+    places = list(zip(amplitudes, result.shares, result.dataset.undetermined.values, strict=True))
+    for amplitude, share, unknown in places[:MAX_ROWS]:
+        in_si = () if block is None else accelerations(float(block.acceleration(amplitude)))
+        yield (f"{amplitude:.6g}", str(share), percent(float(unknown)), *in_si)
+    if len(places) > MAX_ROWS:
+        left = f"and {len(places) - MAX_ROWS} more (all of them with --json, --csv, --netcdf or --plot)"
+        yield (left, "", "", *[""] * len(in_units))
+
+
+def accelerations(acceleration: float) -> Row:
+    """Return an acceleration in m/s² and in g."""
+    return f"{acceleration:.4g}", f"{acceleration / GRAVITY:.4g}"
+
+
+def tangency_lines(result: SafeBasin, block: Block | None) -> Iterator[str]:
+    """Yield the thresholds in SI, if there are any."""
+    if block is None or math.isnan(result.heteroclinic_amplitude):
+        return
+    for name, text in THRESHOLDS.items():
+        yield f"{text} = {in_si('amplitude', getattr(result, f'{name}_amplitude'), block)}"
+
+
+def safe_tables(result: SafeBasin, request: Request) -> Iterator[dict[str, Any]]:
+    """Yield one row per amplitude; with a block also in SI."""
+    data = result.dataset
+    for table in tables(data):
+        yield columns(with_fixed(table, ["amplitude"], data.attrs) | drawn(table, data), request.block)
+
+
+def drawn(table: Mapping[str, Any], data: xr.Dataset) -> dict[str, Any]:
+    """Return the columns of the random initial states: their ranges, number and seed."""
+    ranges = {
+        f"{name}_{end}": bound
+        for name in START
+        for end, bound in zip(("low", "high"), data.attrs[f"{name}_range"], strict=True)
+    }
+    values = ranges | {name: data.attrs[name] for name in ("samples", "seed")}
+    return {name: np.full(len(table["amplitude"]), value) for name, value in values.items()}
+
+
+def thresholds_in_si(result: SafeBasin, block: Block | None) -> dict[str, float]:
+    """Return the thresholds of the amplitude in SI, by name; none without a block."""
+    if block is None:
+        return {}
+    return {
+        f"{name}_{KEY}": float(block.acceleration(getattr(result, f"{name}_amplitude")))
+        for name in THRESHOLDS
+    }
+
+
+def safe_record(result: SafeBasin, request: Request) -> dict[str, Any]:
+    """Return the result as a JSON object."""
+    data, block = result.dataset, request.block
+    fractions = [
+        {
+            "amplitude": float(amplitude),
+            **({} if block is None else {KEY: PHYSICAL["amplitude"].turn(block, amplitude)}),
+            "safe": share_record(share),
+            "undetermined": float(unknown),
+        }
+        for amplitude, share, unknown in zip(
+            data.amplitude.values, result.shares, data.undetermined.values, strict=True
+        )
+    ]
+    return {
+        **{name: data.attrs[name] for name in QUANTITIES if name in data.attrs},
+        "angle": data.attrs["angle_range"],
+        "velocity": data.attrs["velocity_range"],
+        "samples": data.attrs["samples"],
+        "seed": data.attrs["seed"],
+        "heteroclinic_amplitude": result.heteroclinic_amplitude,
+        "melnikov_amplitude": result.melnikov_amplitude,
+        **thresholds_in_si(result, block),
+        "fractions": fractions,
+    }
+
+
+SAFE_BASIN = Report(
+    safe_text,
+    safe_record,
+    figure=lambda plot, result, request: plot.safe_basin(result, block=request.block),
+    tables=safe_tables,
+    data=lambda result, request: with_block(result.dataset, request.block).assign_attrs(
+        thresholds_in_si(result, request.block)
+    ),
+    more=lambda result, request: data_in_si(result.dataset, request),
+)
+
+
+# Lowest overturning amplitude.
+
+
+LEVELS = ("lowest", "resolution", "survived_up_to")
+"""Variables of the result that are amplitudes."""
+
+
+FIXED = ("period", "frequency", "restitution", "critical_angle")
+"""Quantities of a system that are attributes of the result if they do not vary; the phase of the base varies in every row."""
+
+
+COLUMNS = (*LEVELS, "surviving_above")
+
+
+def overturning_text(result: OverturningCurve, request: Request) -> Text:
+    """Return the lowest overturning amplitudes."""
+    block = request.block
+    title, rows = overturning_title(result, block), overturning_rows(result, block)
+    return Text(title, rows, warning_lines(overturning_warnings(result, block)))
+
+
+def overturning_title(result: OverturningCurve, block: Block | None) -> str:
+    """Return the lowest amplitude of all in one line; with a block, in SI first."""
+    lowest = result.dataset.lowest
+    if block is None:
+        return str(result)
+    if lowest.isnull().all():
+        return f"{result}: {in_si('amplitude', result.dataset.amplitude.values[[0, -1]], block)}"
+    where = lowest.isel({} if lowest.ndim == 0 else lowest.argmin(...))
+    at = [in_si(str(name), float(where[name]), block) for name in lowest.dims]
+    motion = " and ".join([in_si("amplitude", float(where), block), *filter(None, at)])
+    return f"a block of {block.size} overturns from rest at {motion}; normalised: {result}"
+
+
+def overturning_warnings(result: OverturningCurve, block: Block | None) -> list[str]:
+    """Return the warnings about the block."""
+    data = result.dataset
+    lowest = data.lowest.values[data.lowest.notnull().values]
+    full = "critical_angle" in (*data.coords, *data.attrs)
+    return block_warnings(block, lowest, values(data, "restitution"), full=full)
+
+
+def overturning_rows(result: OverturningCurve, block: Block | None) -> Iterator[Row]:
+    """Yield one row per value of the varied quantities; with a block, also in SI."""
+    data = result.dataset
+    over = [str(name) for name in data.lowest.dims]
+    known = [] if block is None else [name for name in over if name in PHYSICAL]
+    heading = (*over, "lowest A", "scan step", "all survive up to", "survive above")
+    in_units = () if block is None else ("m/s²", "g", "scan step, m/s²", "up to, m/s²")
+    yield (*heading, *(PHYSICAL[name].unit for name in known), *in_units)
+    for index in list(places(data))[:MAX_ROWS]:
+        at = {name: data[name].values[k] for name, k in zip(over, index, strict=True)}
+        low, step, up_to, above = (float(data[name].values[index]) for name in COLUMNS)
+        cells = [
+            *(f"{value:.6g}" for value in at.values()),
+            "none" if math.isnan(low) else f"{low:.6g}",
+            number_text(step),
+            number_text(up_to),
+            "–" if math.isnan(above) else f"{100 * above:.3g} %",
+        ]
+        if block is not None:
+            cells += [f"{PHYSICAL[name].turn(block, at[name]):.4g}" for name in known]
+            levels = [block.acceleration(level) for level in (low, step, up_to)]
+            cells += [number_text(level, 4) for level in (levels[0], levels[0] / GRAVITY, *levels[1:])]
+        yield tuple(cells)
+    left = data.lowest.size - MAX_ROWS
+    if left > 0:
+        rest = len(heading) + len(known) + len(in_units) - 1
+        yield (f"and {left} more (all of them with --json, --csv, --netcdf or --plot)", *[""] * rest)
+
+
+def places(data: xr.Dataset) -> Iterator[tuple[int, ...]]:
+    """Yield the indices of all values."""
+    yield from np.ndindex(*data.lowest.shape)
+
+
+def number_text(number: float, digits: int = 6) -> str:
+    """Return a number, or a dash for NaN."""
+    return "–" if math.isnan(number) else f"{number:.{digits}g}"
+
+
+def level_key(level: str) -> str:
+    """Return the key of an amplitude in SI."""
+    return f"{level}_{PHYSICAL['amplitude'].key}"
+
+
+def overturning_tables(result: OverturningCurve, request: Request) -> Iterator[dict[str, Any]]:
+    """Yield columns by heading: system of each row, then all variables; amplitudes with a block also in SI."""
+    data, unit = result.dataset, PHYSICAL["amplitude"]
+    over = [str(name) for name in data.lowest.dims]
+    grids = np.meshgrid(*(data[name].values for name in over), indexing="ij")
+    levels = {name: data[name].values.ravel() for name in LEVELS}
+    table: dict[str, Any] = {name: grid.ravel() for name, grid in zip(over, grids, strict=True)}
+    table |= {f"{name} [{unit.normalised}]": level for name, level in levels.items()}
+    table |= {name: data[name].values.ravel() for name in ("lowest_phase", "surviving_above", "undetermined")}
+    table = with_fixed(table, over, {name: data.attrs[name] for name in FIXED if name in data.attrs})
+    block = request.block
+    in_si = (
+        {}
+        if block is None
+        else {f"{name}_{unit.heading}": unit.turn(block, level) for name, level in levels.items()}
+    )
+    yield columns(table | in_si, block)
+
+
+def overturning_record(result: OverturningCurve, request: Request) -> dict[str, Any]:
+    """Return the result as a JSON object."""
+    data, block = result.dataset, request.block
+    over = [str(name) for name in data.lowest.dims]
+    amplitudes = data.amplitude.values
+    rows = [
+        {name: float(data[name].values[k]) for name, k in zip(over, index, strict=True)}
+        | {name: float(data[name].values[index]) for name in (*COLUMNS, "lowest_phase", "undetermined")}
+        for index in places(data)
+    ]
+    if block is not None:
+        for row in rows:
+            row |= {
+                PHYSICAL[name].key: float(PHYSICAL[name].turn(block, row[name]))
+                for name in over
+                if name in PHYSICAL
+            }
+            row |= {level_key(name): PHYSICAL["amplitude"].turn(block, row[name]) for name in LEVELS}
+    fixed = {name: data.attrs[name] for name in FIXED if name in data.attrs}
+    scanned = {"start": float(amplitudes[0]), "stop": float(amplitudes[-1]), "count": int(amplitudes.size)}
+    return {
+        **fixed,
+        "amplitude": scanned,
+        "phases": int(data.phase.size),
+        "curve": rows,
+    }
+
+
+def overturning_data(result: OverturningCurve, request: Request) -> xr.Dataset:
+    """Return the dataset; with a block, amplitudes also in SI."""
+    data, block, amplitude = result.dataset, request.block, PHYSICAL["amplitude"]
+    if block is None:
+        return data
+    levels = {
+        level_key(name): (
+            data[name].dims,
+            amplitude.turn(block, data[name].values),
+            {"long_name": f"{data[name].attrs['long_name']}, in SI", "units": amplitude.cf},
+        )
+        for name in LEVELS
+    }
+    return with_block(data.assign(levels), block)
+
+
+def overturning_in_si(result: OverturningCurve, request: Request) -> dict[str, Any]:
+    """Return the block, the quantities and the warnings as a JSON object; empty without a block."""
+    block = request.block
+    if block is None:
+        return {}
+    return with_warnings(survey_in_si(result.dataset, block), overturning_warnings(result, block))
+
+
+OVERTURNING = Report(
+    overturning_text,
+    overturning_record,
+    figure=lambda plot, result, request: plot.overturning(result, block=request.block),
+    tables=overturning_tables,
+    data=overturning_data,
+    more=overturning_in_si,
+)
+
+
+# Overturning spectrum.
+
+
+MODES = ("no impact", "1 impact", "2 or more impacts")
+
+
+def spectrum_text(data: xr.Dataset, request: Request) -> Text:
+    """Return the fractions of the outcomes and of the modes of overturning."""
+    title = f"overturning spectrum of {data.attrs['pulse']} pulses, {counted(data.outcome.size, 'run')}"
+    return Text(
+        title, spectrum_rows(data, request.block), warning_lines(spectrum_warnings(data, request.block))
+    )
+
+
+def spectrum_warnings(data: xr.Dataset, block: Block | None) -> list[str]:
+    """Return the warnings about the block, and about undecided outcomes."""
+    return [*data_warnings(data, block), *undecided(counts(data, "certified")["undecided"])]
+
+
+def spectrum_rows(data: xr.Dataset, block: Block | None) -> Iterator[Row]:
+    """Yield the quantities, the outcomes, the modes and the lowest amplitude that overturns."""
+    for name in map(str, data.outcome.dims):
+        first, last = data[name].values[[0, -1]]
+        yield name, f"{first:.6g} to {last:.6g} ({data.sizes[name]:,})", in_si(name, (first, last), block)
+    if "restitution" in data.attrs:
+        yield "restitution", f"{data.attrs['restitution']:.6g}", ""
+    outcomes = counts(data, "outcome")
+    total = sum(outcomes.values())
+    for outcome, count in outcomes.items():
+        if count:
+            yield outcome, percent(count / total), counted(count, "run")
+    for mode, count in modes(data).items():
+        if count:
+            yield f"  {mode}", percent(count / total), counted(count, "run")
+    lowest = lowest_overturning(data)
+    if lowest is not None:
+        yield "lowest amplitude that overturns", f"{lowest:.6g}", in_si("amplitude", lowest, block)
+
+
+def overturned(data: xr.Dataset) -> xr.DataArray:
+    """Return the mask of the runs that overturn."""
+    return data.outcome == tuple(Outcome).index(Outcome.OVERTURNED)
+
+
+def modes(data: xr.Dataset) -> dict[str, int]:
+    """Return the number of runs that overturn, by the impacts since the block last rested."""
+    impacts = np.minimum(data.impacts_since_rest.values[overturned(data).values], len(MODES) - 1)
+    return dict(zip(MODES, np.bincount(impacts.astype(int), minlength=len(MODES)).tolist(), strict=True))
+
+
+def lowest_overturning(data: xr.Dataset) -> float | None:
+    """Return the lowest amplitude that overturns a block at any frequency; None if there is none."""
+    fell = overturned(data)
+    over = data["amplitude"].values[fell.any([name for name in fell.dims if name != "amplitude"]).values]
+    return float(over[0]) if over.size else None
+
+
+def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
+    """Return the result as a JSON object."""
+    outcomes, block = counts(data, "outcome"), request.block
+    entries = {
+        "pulse": data.attrs["pulse"],
+        "axes": axes_record(data.outcome),
+        **{name: data.attrs[name] for name in ("restitution",) if name in data.attrs},
+        "runs": sum(outcomes.values()),
+        "outcomes": outcomes,
+        "modes": modes(data),
+        "undecided": counts(data, "certified")["undecided"],
+        "lowest_overturning_amplitude": lowest_overturning(data),
+    }
+    in_si = {} if block is None else {"block": survey_in_si(data, block)}
+    return entries | in_si | {"warnings": spectrum_warnings(data, block)}
+
+
+OVERTURNING_SPECTRUM = Report(
+    spectrum_text,
+    spectrum_record,
+    figure=lambda plot, data, request: plot.overturning_spectrum(data, block=request.block),
+    tables=lambda data, request: (
+        columns(with_fixed(table, data.outcome.dims, data.attrs), request.block) for table in tables(data)
+    ),
+    data=lambda data, request: with_block(data.load(), request.block),
+)
