@@ -139,6 +139,18 @@ def test_full_equation_of_motion_is_named_and_its_doubt_is_said(rocking):
     assert "equation of motion" not in rocking(f"simulate {SI}")[2]
 
 
+@pytest.mark.parametrize(
+    ("variables", "bold"), [({"TERM": "xterm"}, True), ({"TERM": "dumb"}, False), ({"NO_COLOR": "1"}, False)]
+)
+def test_first_line_is_bold_on_a_terminal_with_colours(rocking, monkeypatch, variables, bold):
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(type(sys.stdout), "isatty", lambda stream: stream is sys.stdout)
+    first = rocking(f"simulate {NORMALISED}")[2].splitlines()[0]
+    assert first.startswith("\x1b[1mbounded") == first.endswith("\x1b[0m") == bold
+
+
 def test_rest_is_told(rocking):
     assert rocking("simulate --amplitude 0.5 --period 1 --restitution 0.9")[2].startswith("at rest")
 

@@ -253,7 +253,8 @@ def print_table(text: Text, files: Iterable[Path]) -> None:
 
 def styled(text: str, **style: Any) -> str:
     """Return a text with a style if stdout is a terminal, unless the user wants no colours."""
-    return click.style(text, **style) if sys.stdout.isatty() and not os.environ.get("NO_COLOR") else text
+    plain = not sys.stdout.isatty() or os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return text if plain else click.style(text, **style)
 
 
 def print_json(record: dict[str, Any]) -> None:
