@@ -29,7 +29,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import rocking as rk
-from rocking.model.system import RANGES
+from rocking.model.quantity import SYSTEM_QUANTITIES
 
 SOURCE = str(Path(rk.__file__).parent)
 SEED = 20_250_801
@@ -194,7 +194,8 @@ def targets():
         kind = type(value).__name__
         found[kind] = type(value), named(value)
         for name, _ in inspect.getmembers(type(value), inspect.isfunction):
-            if name.startswith("_") or name in OF_SEQUENCES or f"{kind}.{name}" in found:
+            # `plot` passes all to a function that is a target itself.
+            if name.startswith("_") or name in (*OF_SEQUENCES, "plot") or f"{kind}.{name}" in found:
                 continue
             method = getattr(value, name)
             required = [
@@ -344,7 +345,7 @@ def names_of(call, usual):
         *usual,
         *own,
         *(each for each in usual.values() if isinstance(each, str)),
-        *RANGES,  # quantities of a system that is an argument
+        *SYSTEM_QUANTITIES,  # quantities of a system that is an argument
     ]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model.block import PHYSICAL
+from rocking.model.quantity import IN_SI
 
 BLOCK = rk.Block(2.0, 0.5)
 TYPED = "--restitution 0.8 --phase 0.5"
@@ -146,11 +146,11 @@ def test_quantities_given_in_si_are_written_as_they_were_given(rocking):
 
 def test_conversion_to_si_changes_no_number_by_more_than_rounding():
     amplitudes = np.append(np.random.default_rng(5).uniform(0, 20, 2_000), [np.nan, np.inf, 0.0])
-    found, plain = PHYSICAL["amplitude"].turn(BLOCK, amplitudes), BLOCK.acceleration(amplitudes)
+    found, plain = IN_SI["amplitude"].of(BLOCK, amplitudes), BLOCK.acceleration(amplitudes)
     np.testing.assert_allclose(found, plain, rtol=1e-15)
     assert 1_000 < (found == plain).sum() < 2_000
-    assert isinstance(PHYSICAL["amplitude"].turn(BLOCK, 1.5), float)
-    assert PHYSICAL["period"].turn(BLOCK, np.empty((0, 2))).shape == (0, 2)
+    assert isinstance(IN_SI["amplitude"].of(BLOCK, 1.5), float)
+    assert IN_SI["period"].of(BLOCK, np.empty((0, 2))).shape == (0, 2)
 
 
 def test_states_of_attractors_in_a_table_of_basins_have_both_units(rocking):

@@ -12,10 +12,10 @@ from rocking.cli.options import (
     AMPLITUDES,
     AXIS_FORM,
     NORMALISED,
-    QUANTITIES,
     RANGE_FORM,
     SI,
     START,
+    SURVEYED,
     SYSTEM,
     Axis,
     InvalidInput,
@@ -25,7 +25,8 @@ from rocking.cli.options import (
 )
 from rocking.model.block import Block
 from rocking.model.forcing import Harmonic, Pulse
-from rocking.model.system import MAX_START, MODELS, Braces, State, System
+from rocking.model.quantity import SYSTEM_QUANTITIES
+from rocking.model.system import MODELS, Braces, State, System
 from rocking.model.system import quantities as quantities_of
 from rocking.model.validation import NoOrbit, Refusal, whole, within
 
@@ -151,7 +152,7 @@ def braces_of(options: Options) -> Braces | None:
 def start_of(options: Options) -> State:
     """Return the initial state of the options."""
     with refusals():
-        return State(*(within(name, options.get(name, 0.0), -MAX_START, MAX_START) for name in START))
+        return State(*(SYSTEM_QUANTITIES[name].checked(options.get(name, 0.0)) for name in START))
 
 
 def response(options: Options) -> Request:
@@ -403,7 +404,7 @@ def normalised(options: Options) -> dict[str, Any]:
     points = {VARIES.get(name, name): axis.points for name, axis in varied.items()}
     return {
         name: values_of(Axis(first[name], last[name], points[name])) if name in points else first[name]
-        for name in QUANTITIES
+        for name in SURVEYED
         if name in first
     } | lists
 
@@ -441,7 +442,6 @@ def block_of(options: Options) -> Block | None:
 
 def check_entry(key: str, name: str, value: Any) -> None:
     """Check an entry of a study file for a survey; ValueError if it is invalid."""
-    from rocking.model.system import RANGES
     from rocking.response.classify import MAX_CYCLES, MAX_PERIOD
     from rocking.survey.overturning_amplitude import MAX_PHASES
     from rocking.survey.random_points import MAX_SAMPLES, MAX_SEED
@@ -456,9 +456,9 @@ def check_entry(key: str, name: str, value: Any) -> None:
         "max_period": (1, MAX_PERIOD),
         "boundary_runs": (0, MAX_SAMPLES),
     }
-    if name in QUANTITIES:
+    if name in SURVEYED:
         for each in value[:2] if isinstance(value, tuple) else (value,):
-            number_or_axis(key, each, RANGES[name])
+            number_or_axis(key, each, SYSTEM_QUANTITIES[name].range)
     elif name in counts:
         whole(key, value, *counts[name])
     elif name == "boundary_width":

@@ -10,12 +10,14 @@ from typing import Any, NamedTuple
 
 import click
 
+from rocking.model.quantity import SYSTEM_QUANTITIES
+
 NORMALISED = ("amplitude", "period", "frequency")
 SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
 FORCED = (*NORMALISED, *SI, "restitution")
 SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution", "critical_angle")
 START = ("angle", "velocity")
-QUANTITIES = tuple(name for name in (*SYSTEM, *START) if name not in SI)
+SURVEYED = tuple(name for name in (*SYSTEM, *START) if name not in SI)
 """Quantities of a survey, in the order in which they are printed."""
 AMPLITUDES = ("amplitude", "acceleration", "acceleration_g", "displacement")
 FREQUENCIES = ("period", "frequency", "frequency_hz", "period_s")
@@ -406,10 +408,7 @@ def csv(text: str) -> click.Option:
     return output("csv", f"{text} (.csv).", ".csv")
 
 
-TEXTS = {
-    "amplitude": "Amplitude A of the base acceleration, in units of g θcr.",
-    "period": "Forcing period T, in units of 1/α.",
-    "frequency": "Forcing frequency Ω, in units of α; replaces --period.",
+TEXTS = {name: each.help for name, each in SYSTEM_QUANTITIES.items()} | {
     "height": "Height of the block, m.",
     "width": "Width of the block, m.",
     "acceleration": "Amplitude of the base acceleration, m/s².",
@@ -417,13 +416,6 @@ TEXTS = {
     "displacement": "Amplitude of the base displacement, m; replaces --acceleration.",
     "frequency_hz": "Forcing frequency, Hz.",
     "period_s": "Forcing period, s; replaces --frequency-hz.",
-    "restitution": "Coefficient of restitution e.",
-    "phase": "Phase φ of the base acceleration, rad. Default: 0.",
-    "brace_angle": "Brace angle Θb, in units of θcr. Default: no braces.",
-    "brace_restitution": "Coefficient of restitution r at a brace. Default: 1.",
-    "critical_angle": "Critical angle θcr of the full equation of motion, rad, with normalised input. Default: small angles.",
-    "angle": "Initial angle Θ, in units of the critical angle θcr, not in degrees. Default: 0.",
-    "velocity": "Initial angular velocity Θ', in units of α θcr. Default: 0.",
 }
 """Help of the options of a system and an initial state, the same in all commands."""
 

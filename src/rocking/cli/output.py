@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 from attrs import frozen
 
-from rocking.cli.options import FILMS, QUANTITIES, InvalidInput, OutputFile, OutputFolder, option, refusals
-from rocking.model.block import PHYSICAL, SAME_IN_SI, Block, block_attributes
+from rocking.cli.options import FILMS, SURVEYED, InvalidInput, OutputFile, OutputFolder, option, refusals
+from rocking.model.block import Block, block_attributes
 from rocking.model.files import (
     TILES,
     check_replaceable,
@@ -24,6 +24,7 @@ from rocking.model.files import (
     replacing_hdf5,
     resolve_path,
 )
+from rocking.model.quantity import IN_SI, QUANTITIES
 from rocking.model.text import shown_path
 
 if TYPE_CHECKING:
@@ -131,12 +132,14 @@ def write_dataset(data: xr.Dataset, path: Path) -> None:
 
 def columns(table: Table, block: Block | None) -> dict[str, Any]:
     """Return columns with units in their headings; with a block, its quantities are repeated in SI."""
-    known = {name: PHYSICAL[name] for name in table if name in PHYSICAL}
-    units = SAME_IN_SI | {name: each.normalised for name, each in known.items()}
-    headed = {f"{name} [{units[name]}]" if name in units else name: column for name, column in table.items()}
+    headed = {
+        QUANTITIES[name].heading if name in QUANTITIES else name: column for name, column in table.items()
+    }
     if block is None:
         return headed
-    return headed | {each.heading: each.turn(block, table[name]) for name, each in known.items()}
+    return headed | {
+        IN_SI[name].heading: IN_SI[name].of(block, table[name]) for name in table if name in IN_SI
+    }
 
 
 def with_fixed(table: Table, varied: Iterable[Any], quantities: Mapping[Any, Any]) -> dict[str, Any]:
@@ -145,7 +148,7 @@ def with_fixed(table: Table, varied: Iterable[Any], quantities: Mapping[Any, Any
 
     count = len(next(iter(table.values())))
     first = {str(name): table[str(name)] for name in varied}
-    fixed = {name: np.full(count, quantities[name]) for name in QUANTITIES if name in quantities}
+    fixed = {name: np.full(count, quantities[name]) for name in SURVEYED if name in quantities}
     return first | fixed | dict(table)
 
 
@@ -156,10 +159,10 @@ def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
     in_si = {
         each.key: (
             data[name].dims,
-            each.turn(block, data[name].values),
-            {"long_name": f"{each.name} in SI", "units": each.cf},
+            each.of(block, data[name].values),
+            {"long_name": f"{each.name} in SI", "units": each.units},
         )
-        for name, each in PHYSICAL.items()
+        for name, each in IN_SI.items()
         if name in data.coords
     }
     return data.assign_coords(in_si).assign_attrs(block_attributes(block))

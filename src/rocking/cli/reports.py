@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import attrs
 import numpy as np
 
 from rocking.cli.output import WARNING, Row
-from rocking.model.block import PHYSICAL, Block
+from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import Pulse
+from rocking.model.quantity import IN_SI
 from rocking.model.share import Share
 from rocking.model.system import System, angle_doubt, quantities
 from rocking.model.text import counted
@@ -86,30 +87,17 @@ def in_si(name: str, values: Any, block: Block | None) -> str:
     """Return a quantity, or the ends of its range, in SI units; an acceleration in m/s² and in g."""
     if block is None or name not in IN_SI:
         return ""
-    turn, unit = IN_SI[name]
-    text = f"{ends_text(turn(block, values))}{unit}"
+    si = IN_SI[name]
+    assert si.drawn is not None
+    text = (
+        f"{ends_text(si.drawn(block, values))}{'' if si.drawn_unit.startswith('°') else ' '}{si.drawn_unit}"
+    )
     return f"{text} = {ends_text(block.acceleration(values) / GRAVITY)} g" if name == "amplitude" else text
 
 
 def ends_text(values: Any) -> str:
     """Return a number, or the ends of a range."""
     return " to ".join(f"{value:.4g}" for value in np.atleast_1d(values))
-
-
-def degrees_per_second(block: Block, velocities: Any) -> Any:
-    """Return velocities in degrees per second."""
-    return np.degrees(block.radians_per_second(velocities))
-
-
-IN_SI: dict[str, tuple[Callable[[Block, Any], Any], str]] = {
-    "amplitude": (Block.acceleration, " m/s²"),
-    "period": (Block.seconds, " s"),
-    "frequency": (Block.hertz, " Hz"),
-    "angle": (Block.degrees, "°"),
-    "velocity": (degrees_per_second, "°/s"),
-    "brace_angle": (Block.degrees, "°"),
-}
-"""Quantity → its conversion by a block and the unit printed."""
 
 
 def angle_warning(angle: float, block: Block | None) -> Iterator[str]:
@@ -165,12 +153,12 @@ def size_record(block: Block) -> dict[str, float]:
 def survey_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
     """Return the block and the quantities of its survey in SI as a JSON object."""
     entries: dict[str, Any] = {}
-    for name, each in PHYSICAL.items():
+    for name, each in IN_SI.items():
         if name in data.coords:
-            start, stop = each.turn(block, data[name].values[[0, -1]]).tolist()
+            start, stop = each.of(block, data[name].values[[0, -1]]).tolist()
             entries[each.key] = {"start": start, "stop": stop, "count": data.sizes[name]}
         elif name in data.attrs:
-            entries[each.key] = float(each.turn(block, data.attrs[name]))
+            entries[each.key] = float(each.of(block, data.attrs[name]))
     return size_record(block) | entries
 
 
@@ -178,12 +166,12 @@ def system_in_si(system: System, block: Block) -> dict[str, Any]:
     """Return the block and its base motion in SI as a JSON object."""
     if isinstance(system.forcing, Pulse):
         pulse = system.forcing
-        size, length = pulse.amplitude, {"duration_s": PHYSICAL["period"].turn(block, pulse.span)}
+        size, length = pulse.amplitude, {"duration_s": IN_SI["period"].of(block, pulse.span)}
     else:
         size = system.periodic.amplitude
-        length = {"period_s": PHYSICAL["period"].turn(block, system.periodic.period)}
+        length = {"period_s": IN_SI["period"].of(block, system.periodic.period)}
     return size_record(block) | {
-        "acceleration_m_per_s2": PHYSICAL["amplitude"].turn(block, size),
+        "acceleration_m_per_s2": IN_SI["amplitude"].of(block, size),
         **length,
         "restitution_is_housners": block.has_housner_restitution,
     }

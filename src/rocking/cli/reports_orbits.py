@@ -27,8 +27,9 @@ from rocking.cli.reports import (
     with_warnings,
 )
 from rocking.cli.reports_verdict import multipliers_text, proof_record
-from rocking.model.block import PHYSICAL, Block
+from rocking.model.block import Block
 from rocking.model.orbit import Orbit
+from rocking.model.quantity import IN_SI
 from rocking.model.system import State, System, quantities
 
 if TYPE_CHECKING:
@@ -283,9 +284,9 @@ def special_record(special: SpecialPoint, block: Block | None) -> dict[str, Any]
 
 def value_record(name: str, value: float, block: Block | None) -> dict[str, float]:
     """Return a value of a parameter by name as a JSON object, with a block also in SI."""
-    if block is None or name not in PHYSICAL:
+    if block is None or name not in IN_SI:
         return {name: value}
-    return {name: value, PHYSICAL[name].key: float(PHYSICAL[name].turn(block, value))}
+    return {name: value, IN_SI[name].key: float(IN_SI[name].of(block, value))}
 
 
 CONTINUE = Report(
@@ -535,9 +536,9 @@ def sweep_record(
     }
     if block is None:
         return entries
-    if diagram.parameter in PHYSICAL:
-        varied = PHYSICAL[diagram.parameter]
-        entries[f"overturned_at_{varied.key}"] = varied.turn(block, values.tolist()).tolist()
+    if diagram.parameter in IN_SI:
+        varied = IN_SI[diagram.parameter]
+        entries[f"overturned_at_{varied.key}"] = varied.of(block, values.tolist()).tolist()
     return entries | {"peak_deg": None if peak is None else float(block.degrees(peak))}
 
 

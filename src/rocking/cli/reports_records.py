@@ -21,7 +21,8 @@ from rocking.cli.reports import (
     undecided,
     warning_lines,
 )
-from rocking.model.block import PHYSICAL, block_attributes
+from rocking.model.block import block_attributes
+from rocking.model.quantity import IN_SI, QUANTITIES
 from rocking.model.record_results import Fragility, OverturningSet, Sensitivity, limit_name
 from rocking.model.record_set import RecordSet
 from rocking.model.text import counted, percent, percent_with_ends
@@ -152,7 +153,7 @@ def spectrum_tables(data: xr.Dataset, _: Request) -> Iterator[dict[str, np.ndarr
             number = table.pop("record").astype(int)
             headed = {"record": number, "name": data["name"].values[number]}
         for name, column in table.items():
-            unit = PHYSICAL[name].normalised if name in PHYSICAL else data[name].attrs.get("units", "1")
+            unit = QUANTITIES[name].unit if name in IN_SI else data[name].attrs.get("units", "1")
             headed[name if unit in ("1", "") else f"{name} [{unit}]"] = column
         slenderness = table["slenderness"] if "slenderness" in table else data.attrs["slenderness"]
         headed["peak [deg]"] = table["peak"] * np.degrees(slenderness)

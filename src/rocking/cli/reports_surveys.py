@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 import numpy as np
 
-from rocking.cli.options import QUANTITIES, START
+from rocking.cli.options import START, SURVEYED
 from rocking.cli.output import Report, Row, Text, columns, with_block, with_fixed
 from rocking.cli.reports import (
     MAX_ROWS,
@@ -26,8 +26,9 @@ from rocking.cli.reports import (
     warning_lines,
     with_warnings,
 )
-from rocking.model.block import PHYSICAL, Block
+from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
+from rocking.model.quantity import AMPLITUDE, IN_SI
 from rocking.model.survey_results import BasinMap, OverturningCurve, SafeBasin, UncertaintyExponent
 from rocking.model.system import System
 from rocking.model.text import counted, percent
@@ -78,7 +79,7 @@ def map_rows(data: xr.Dataset, block: Block | None) -> Iterator[Row]:
     for name in map(str, data.kind.dims):
         first, last = data[name].values[[0, -1]]
         yield name, f"{first:.6g} to {last:.6g}", in_si(name, (first, last), block)
-    for name in (*QUANTITIES, "max_cycles"):
+    for name in (*SURVEYED, "max_cycles"):
         if name in data.attrs:
             value = data.attrs[name]
             yield name.replace("_", " "), f"{value:.6g}", in_si(name, value, block)
@@ -102,7 +103,7 @@ def map_record(data: xr.Dataset, _: Request) -> dict[str, Any]:
     kinds = counts(data, "kind")
     return {
         "axes": axes_record(data.kind),
-        **{name: data.attrs[name] for name in (*QUANTITIES, *COUNTS) if name in data.attrs},
+        **{name: data.attrs[name] for name in (*SURVEYED, *COUNTS) if name in data.attrs},
         "points": sum(kinds.values()),
         "kinds": kinds,
         "evidence": counts(data, "evidence"),
@@ -249,7 +250,7 @@ BASINS = Report(
 # Safe basin.
 
 
-KEY = PHYSICAL["amplitude"].key
+KEY = IN_SI["amplitude"].key
 
 
 THRESHOLDS = {"heteroclinic": "exact tangency A*", "melnikov": "Melnikov's A_M"}
@@ -323,7 +324,7 @@ def safe_record(result: SafeBasin, request: Request) -> dict[str, Any]:
     fractions = [
         {
             "amplitude": float(amplitude),
-            **({} if block is None else {KEY: PHYSICAL["amplitude"].turn(block, amplitude)}),
+            **({} if block is None else {KEY: IN_SI["amplitude"].of(block, amplitude)}),
             "safe": share_record(share),
             "undetermined": float(unknown),
         }
@@ -332,7 +333,7 @@ def safe_record(result: SafeBasin, request: Request) -> dict[str, Any]:
         )
     ]
     return {
-        **{name: data.attrs[name] for name in QUANTITIES if name in data.attrs},
+        **{name: data.attrs[name] for name in SURVEYED if name in data.attrs},
         "angle": data.attrs["angle_range"],
         "velocity": data.attrs["velocity_range"],
         "samples": data.attrs["samples"],
@@ -402,10 +403,10 @@ def overturning_rows(result: OverturningCurve, block: Block | None) -> Iterator[
     """Yield one row per value of the varied quantities; with a block, also in SI."""
     data = result.dataset
     over = [str(name) for name in data.lowest.dims]
-    known = [] if block is None else [name for name in over if name in PHYSICAL]
+    known = [] if block is None else [name for name in over if name in IN_SI]
     heading = (*over, "lowest A", "scan step", "all survive up to", "survive above")
     in_units = () if block is None else ("m/s²", "g", "scan step, m/s²", "up to, m/s²")
-    yield (*heading, *(PHYSICAL[name].unit for name in known), *in_units)
+    yield (*heading, *(IN_SI[name].unit for name in known), *in_units)
     for index in list(places(data))[:MAX_ROWS]:
         at = {name: data[name].values[k] for name, k in zip(over, index, strict=True)}
         low, step, up_to, above = (float(data[name].values[index]) for name in COLUMNS)
@@ -417,7 +418,7 @@ def overturning_rows(result: OverturningCurve, block: Block | None) -> Iterator[
             "–" if math.isnan(above) else f"{100 * above:.3g} %",
         ]
         if block is not None:
-            cells += [f"{PHYSICAL[name].turn(block, at[name]):.4g}" for name in known]
+            cells += [f"{IN_SI[name].of(block, at[name]):.4g}" for name in known]
             levels = [block.acceleration(level) for level in (low, step, up_to)]
             cells += [number_text(level, 4) for level in (levels[0], levels[0] / GRAVITY, *levels[1:])]
         yield tuple(cells)
@@ -439,24 +440,24 @@ def number_text(number: float, digits: int = 6) -> str:
 
 def level_key(level: str) -> str:
     """Return the key of an amplitude in SI."""
-    return f"{level}_{PHYSICAL['amplitude'].key}"
+    return f"{level}_{IN_SI['amplitude'].key}"
 
 
 def overturning_tables(result: OverturningCurve, request: Request) -> Iterator[dict[str, Any]]:
     """Yield columns by heading: system of each row, then all variables; amplitudes with a block also in SI."""
-    data, unit = result.dataset, PHYSICAL["amplitude"]
+    data, unit = result.dataset, IN_SI["amplitude"]
     over = [str(name) for name in data.lowest.dims]
     grids = np.meshgrid(*(data[name].values for name in over), indexing="ij")
     levels = {name: data[name].values.ravel() for name in LEVELS}
     table: dict[str, Any] = {name: grid.ravel() for name, grid in zip(over, grids, strict=True)}
-    table |= {f"{name} [{unit.normalised}]": level for name, level in levels.items()}
+    table |= {f"{name} [{AMPLITUDE.unit}]": level for name, level in levels.items()}
     table |= {name: data[name].values.ravel() for name in ("lowest_phase", "surviving_above", "undetermined")}
     table = with_fixed(table, over, {name: data.attrs[name] for name in FIXED if name in data.attrs})
     block = request.block
     in_si = (
         {}
         if block is None
-        else {f"{name}_{unit.heading}": unit.turn(block, level) for name, level in levels.items()}
+        else {f"{name}_{unit.heading}": unit.of(block, level) for name, level in levels.items()}
     )
     yield columns(table | in_si, block)
 
@@ -474,11 +475,9 @@ def overturning_record(result: OverturningCurve, request: Request) -> dict[str, 
     if block is not None:
         for row in rows:
             row |= {
-                PHYSICAL[name].key: float(PHYSICAL[name].turn(block, row[name]))
-                for name in over
-                if name in PHYSICAL
+                IN_SI[name].key: float(IN_SI[name].of(block, row[name])) for name in over if name in IN_SI
             }
-            row |= {level_key(name): PHYSICAL["amplitude"].turn(block, row[name]) for name in LEVELS}
+            row |= {level_key(name): IN_SI["amplitude"].of(block, row[name]) for name in LEVELS}
     fixed = {name: data.attrs[name] for name in FIXED if name in data.attrs}
     scanned = {"start": float(amplitudes[0]), "stop": float(amplitudes[-1]), "count": int(amplitudes.size)}
     return {
@@ -491,14 +490,14 @@ def overturning_record(result: OverturningCurve, request: Request) -> dict[str, 
 
 def overturning_data(result: OverturningCurve, request: Request) -> xr.Dataset:
     """Return the dataset; with a block, amplitudes also in SI."""
-    data, block, amplitude = result.dataset, request.block, PHYSICAL["amplitude"]
+    data, block, amplitude = result.dataset, request.block, IN_SI["amplitude"]
     if block is None:
         return data
     levels = {
         level_key(name): (
             data[name].dims,
-            amplitude.turn(block, data[name].values),
-            {"long_name": f"{data[name].attrs['long_name']}, in SI", "units": amplitude.cf},
+            amplitude.of(block, data[name].values),
+            {"long_name": f"{data[name].attrs['long_name']}, in SI", "units": amplitude.units},
         )
         for name in LEVELS
     }

@@ -12,7 +12,8 @@ from attrs import frozen
 
 from rocking.explorer.bokeh_figures import no_image
 from rocking.explorer.view_state import Span, ViewState
-from rocking.model.system import MAX_START, State, System
+from rocking.model.quantity import ANGLE
+from rocking.model.system import State, System
 from rocking.model.validation import TooManyEvents
 from rocking.model.verdict import Outcome, Verdict
 from rocking.motion.motion import Motion
@@ -168,7 +169,7 @@ def _motion(shown: ViewState) -> tuple[Motion, float]:
 
 def _is_start(state: State) -> bool:
     """Return whether a state is a valid initial state; a long motion can leave the allowed range."""
-    return max(abs(state.angle), abs(state.velocity)) <= MAX_START
+    return max(abs(state.angle), abs(state.velocity)) <= ANGLE.range[1]
 
 
 def _shown_of(motion: Motion) -> tuple[float, float]:

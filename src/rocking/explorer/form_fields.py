@@ -22,8 +22,8 @@ from rocking.explorer.field_readers import (
 )
 from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest
 from rocking.model.block import Block
-from rocking.model.forcing import MAX_AMPLITUDE, MAX_PHASE, PERIODS
-from rocking.model.system import BRACE_ANGLES, CRITICAL_ANGLES, MAX_START, check_below_flat, check_start
+from rocking.model.quantity import AMPLITUDE, ANGLE, BRACE_ANGLE, CRITICAL_ANGLE, PERIOD, PHASE
+from rocking.model.system import check_below_flat, check_start
 from rocking.model.validation import Refusal
 from rocking.plot import theory_curves
 
@@ -59,19 +59,19 @@ def _words(*allowed: str) -> Callable[[str, str], tuple[str, ...]]:
     return read
 
 
-START = -MAX_START, MAX_START
+START = -ANGLE.range[1], ANGLE.range[1]
 READ: dict[str, Callable[[str, str], Any]] = {
-    "amplitude": number(0.0, MAX_AMPLITUDE),
-    "period": number(*PERIODS),
+    "amplitude": number(0.0, AMPLITUDE.range[1]),
+    "period": number(*PERIOD.range),
     "restitution": number(0.0, 1.0),
-    "phase": number(-MAX_PHASE, MAX_PHASE),
+    "phase": number(-PHASE.range[1], PHASE.range[1]),
     "angle": number(*START),
     "velocity": number(*START),
-    "brace_angle": optional(number(*BRACE_ANGLES)),
+    "brace_angle": optional(number(*BRACE_ANGLE.range)),
     "brace_restitution": number(0.0, 1.0),
-    "critical_angle": optional(number(*CRITICAL_ANGLES)),
-    "amplitudes": _span(0.0, MAX_AMPLITUDE),
-    "periods": _span(*PERIODS),
+    "critical_angle": optional(number(*CRITICAL_ANGLE.range)),
+    "amplitudes": _span(0.0, AMPLITUDE.range[1]),
+    "periods": _span(*PERIOD.range),
     "angles": _span(*START),
     "velocities": _span(*START),
     "vary": word("amplitude", "period"),
@@ -180,8 +180,8 @@ def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
         height=block.height,
         width=block.width,
         critical_angle=None if shown.critical_angle is None else block.critical_angle,
-        amplitudes=_reaching(shown.amplitudes, forcing.amplitude, MAX_AMPLITUDE),
-        periods=_reaching(shown.periods, forcing.period, PERIODS[1]),
+        amplitudes=_reaching(shown.amplitudes, forcing.amplitude, AMPLITUDE.range[1]),
+        periods=_reaching(shown.periods, forcing.period, PERIOD.range[1]),
     )
     return _checked(wanted)
 

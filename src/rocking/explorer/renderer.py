@@ -17,8 +17,7 @@ from rocking.explorer.page_channel import Link
 from rocking.explorer.progressive_map import FIRST, Picture, Plane, Refinement
 from rocking.explorer.view_state import POINTS, Span, ViewState
 from rocking.explorer.worker_pools import Workers
-from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
-from rocking.model.system import MAX_START
+from rocking.model.quantity import AMPLITUDE, ANGLE, PERIOD
 from rocking.model.verdict import Kind, Verdict
 
 BASIN_POINTS = 257
@@ -28,8 +27,8 @@ GROWTH = (1_000, 2_000, 7_000, 20_000, 30_000, 40_000)
 """Cycles added to a section, step by step: 10⁵ in total."""
 MAP_FIRST = 1.0
 """Maximum delay of a basin map and of a longer section in favour of the map of responses, s."""
-MAP_LIMITS = Span(*PERIODS), Span(0.0, MAX_AMPLITUDE)
-BASIN_LIMITS = Span(-MAX_START, MAX_START), Span(-MAX_START, MAX_START)
+MAP_LIMITS = Span(*PERIOD.range), Span(0.0, AMPLITUDE.range[1])
+BASIN_LIMITS = Span(-ANGLE.range[1], ANGLE.range[1]), Span(-ANGLE.range[1], ANGLE.range[1])
 VARIED = {"amplitude": "amplitude A", "period": "period T"}
 
 

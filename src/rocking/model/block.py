@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from attrs import field, frozen
 
 from rocking.model.block_formulas import GRAVITY, frequency_in_hertz, frequency_parameter, housner_restitution
-from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, BaseMotion, Harmonic
+from rocking.model.forcing import BaseMotion, Harmonic
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
+from rocking.model.quantity import AMPLITUDE, FREQUENCY, RESTITUTION, SIZES
 from rocking.model.system import Braces, System, critical_angle_for
 from rocking.model.validation import (
     MAX_REAL,
@@ -26,7 +27,6 @@ from rocking.model.validation import (
     within,
 )
 
-SIZES = (1e-3, 1e3)
 LOWEST, LARGEST = 0.01, 100.0
 """Smallest height, and largest height or width, in m, without a warning."""
 INERTIA_RATIOS = (1.0, 10.0)
@@ -45,7 +45,7 @@ def checked_width(value: float) -> float:
 
 def checked_restitution(value: float | None) -> float | None:
     """Return the coefficient of restitution, after checking."""
-    return None if value is None else within("restitution", value, 0, 1)
+    return None if value is None else RESTITUTION.checked(value)
 
 
 def checked_inertia_ratio(value: float) -> float:
@@ -255,15 +255,15 @@ class Block:
             "acceleration_g": (acceleration_g, GRAVITY, "g"),
             "displacement": (displacement, (frequency * self.frequency_parameter) ** 2, "m"),
         }[given]
-        largest = self.acceleration(MAX_AMPLITUDE) / per_unit
+        largest = self.acceleration(AMPLITUDE.range[1]) / per_unit
         amplitude = self.amplitude(within(given, size, 0, largest, unit) * per_unit)  # type: ignore[arg-type]
-        return Harmonic(min(amplitude, MAX_AMPLITUDE), frequency=frequency, phase=phase)
+        return Harmonic(min(amplitude, AMPLITUDE.range[1]), frequency=frequency, phase=phase)
 
     def _forcing_frequency(self, frequency_hz: float | None, period_s: float | None) -> float:
         """Return Ω from the given one of the two; the ends of the range survive the rounding of the conversion."""
-        low, high = (self.hertz(frequency) for frequency in FREQUENCIES)
+        low, high = (self.hertz(frequency) for frequency in FREQUENCY.range)
         hertz = frequency_in_hertz(frequency_hz, period_s, low, high)
-        return min(max(self.frequency(hertz), FREQUENCIES[0]), FREQUENCIES[1])
+        return min(max(self.frequency(hertz), FREQUENCY.range[0]), FREQUENCY.range[1])
 
     def acceleration(self, amplitude: Any) -> Any:
         """Base acceleration a_x = A g θcr in m/s², from a normalised amplitude A."""
@@ -357,86 +357,6 @@ class Block:
             f"Block(height={self.height} m, width={self.width} m, "
             f"restitution={self.restitution:.6g} {origin}{inertia})"
         )
-
-
-MAX_ROUNDING = 4
-"""Rounding errors by which a number differs at most that was normalised and converted back."""
-
-
-class Physical(NamedTuple):
-    """SI counterpart of a normalised quantity."""
-
-    normalised: str  # unit of the normalised quantity
-    name: str
-    unit: str
-    key: str  # name with unit, for JSON and CSV
-    cf: str  # unit in the notation of the CF conventions
-    turn: Callable[[Block, Any], Any]
-
-    @property
-    def heading(self) -> str:
-        """Heading of a column."""
-        return f"{self.name} [{self.unit}]"
-
-
-def _as_given(turn: Callable[[Block, Any], Any]) -> Callable[[Block, Any], Any]:
-    """Return a conversion of a quantity that may have been given in SI: rounding does not change 3 to 2.9999999999999996.
-
-    A number is replaced by one with 15 digits if both agree to rounding.
-    """
-
-    def turned(block: Block, value: Any) -> Any:
-        physical = np.asarray(turn(block, value))
-        distinct, places = np.unique(physical, return_inverse=True)
-        short = np.array([float(f"{each:.15g}") for each in distinct.tolist()])
-        with np.errstate(invalid="ignore"):
-            same = np.abs(short - distinct) <= MAX_ROUNDING * np.spacing(np.abs(distinct))
-        found = np.where(same, short, distinct)[places].reshape(physical.shape)
-        return found if found.ndim else float(found)
-
-    return turned
-
-
-def _per_second(block: Block, rate: Any) -> Any:
-    """Convert a rate per τ to a rate per second."""
-    return rate * block.frequency_parameter
-
-
-PHYSICAL = {
-    "amplitude": Physical(
-        "g theta_cr",
-        "acceleration",
-        "m/s^2",
-        "acceleration_m_per_s2",
-        "m s-2",
-        _as_given(Block.acceleration),
-    ),
-    "period": Physical("1/alpha", "period", "s", "period_s", "s", _as_given(Block.seconds)),
-    "frequency": Physical("alpha", "frequency", "Hz", "frequency_hz", "Hz", _as_given(Block.hertz)),
-    "time": Physical("1/alpha", "time", "s", "time_s", "s", Block.seconds),
-    "angle": Physical("theta_cr", "angle", "rad", "angle_rad", "rad", Block.radians),
-    "velocity": Physical(
-        "alpha theta_cr", "velocity", "rad/s", "velocity_rad_per_s", "rad s-1", Block.radians_per_second
-    ),
-    "peak": Physical("theta_cr", "peak", "rad", "peak_rad", "rad", Block.radians),
-    "exponent": Physical("alpha", "exponent", "1/s", "exponent_per_s", "s-1", _per_second),
-    "exponent_error": Physical("alpha", "exponent_error", "1/s", "exponent_error_per_s", "s-1", _per_second),
-}
-for _name in ("brace_angle", "orbit_angle", "mean_angle", "mean_angle_error", "angle_low", "angle_high"):
-    PHYSICAL[_name] = PHYSICAL["angle"]._replace(name=_name, key=f"{_name}_rad")
-for _name in ("orbit_velocity", "margin", "velocity_low", "velocity_high"):
-    PHYSICAL[_name] = PHYSICAL["velocity"]._replace(name=_name, key=f"{_name}_rad_per_s")
-"""SI counterparts by the name of the normalised quantity. Dimensionless quantities are absent."""
-SAME_IN_SI = {
-    "phase": "rad",
-    "forcing_phase": "rad",
-    "lowest_phase": "rad",
-    "critical_angle": "rad",
-    "response_period": "cycles",
-    "orbit_period": "cycles",
-    "transient": "cycles",
-}
-"""Units of quantities that are the same for normalised and SI input."""
 
 
 def block_attributes(block: Block) -> dict[str, float]:

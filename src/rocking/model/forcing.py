@@ -9,34 +9,29 @@ import attrs
 import numpy as np
 from attrs import field, frozen
 
+from rocking.model.quantity import AMPLITUDE, FREQUENCY, PERIOD, PHASE
 from rocking.model.result import ReadOnlyArrays, read_only
 from rocking.model.validation import Refusal, exactly_one, finite, one_of, reals, within
 
-MAX_AMPLITUDE = 1e3
-FREQUENCIES = (1e-3, 1e3)
-PERIODS = (math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0])
-MAX_PHASE = 1e3
 MAX_TIME = 1e100
 UNITS = (1e-9, 1e9)
 """Range of the units of acceleration in m/s² and of frequency in 1/s."""
 
 
 def _amplitude(value: float) -> float:
-    return within(
-        "amplitude", value, 0, MAX_AMPLITUDE, if_below="for the opposite direction add π to {phase}"
-    )
+    return AMPLITUDE.checked(value, if_below="for the opposite direction add π to {phase}")
 
 
 def _period(value: float | None) -> float | None:
-    return None if value is None else within("period", value, *PERIODS)
+    return None if value is None else PERIOD.checked(value)
 
 
 def _frequency(value: float | None) -> float | None:
-    return None if value is None else within("frequency", value, *FREQUENCIES)
+    return None if value is None else FREQUENCY.checked(value)
 
 
 def _phase(value: float) -> float:
-    return within("phase", value, -MAX_PHASE, MAX_PHASE)
+    return PHASE.checked(value)
 
 
 class Forcing:

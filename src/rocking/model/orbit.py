@@ -10,11 +10,11 @@ from typing import Any
 
 from attrs import evolve, field, frozen
 
-from rocking.model.forcing import MAX_PHASE, Harmonic
+from rocking.model.forcing import Harmonic
 from rocking.model.proof import Proof
+from rocking.model.quantity import PHASE
 from rocking.model.system import NO_BRACES, State, System, quantities
 from rocking.model.text import counted
-from rocking.model.validation import within
 
 
 @frozen
@@ -230,7 +230,7 @@ class Orbit:
         True
         """
         forcing = self.system.periodic
-        phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
+        phase = PHASE.checked(phase)
         whole = math.tau * self.period
         return self._after(
             ((forcing.phase - self.phase) % math.tau + (phase - forcing.phase) % whole) % whole

@@ -1,6 +1,7 @@
 """Public names of a package, imported at their first use, so that importing the package loads no numerical library.
 
-The table of names is the typing stub of the package, `__init__.pyi`, which type checkers read too.
+The table of names is the typing stub of the package, `__init__.pyi`, which type checkers read too. As in all stubs, a name that is
+imported `as` itself is exported, and one that is not can be used, but is no part of `__all__`.
 """
 
 from __future__ import annotations
@@ -13,19 +14,18 @@ from pkgutil import get_data
 from typing import Any
 
 
-def places(package: str) -> dict[str, tuple[str, str]]:
-    """Return the module of each public name of a package, and its name there."""
-    table = ast.parse(get_data(package, "__init__.pyi") or b"")
-    imports = [node for node in table.body if isinstance(node, ast.ImportFrom)]
-    return {
-        each.asname or each.name: (node.module or "", each.name) for node in imports for each in node.names
-    }
+def imported(package: str) -> list[tuple[str, ast.alias]]:
+    """Return the modules and the names that the stub of a package imports."""
+    stub = ast.parse(get_data(package, "__init__.pyi") or b"")
+    imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
+    return [(node.module or "", each) for node in imports for each in node.names]
 
 
 def lazy(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """Return `__getattr__`, `__dir__` and `__all__` of a package."""
-    table = places(package)
-    names = sorted(table)
+    imports = imported(package)
+    table = {each.asname or each.name: (module, each.name) for module, each in imports}
+    names = sorted(each.asname for _, each in imports if each.asname)
 
     def get(name: str) -> Any:
         if name not in table:

@@ -8,7 +8,8 @@ from itertools import pairwise
 
 from attrs import field, frozen
 
-from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
+from rocking.model.forcing import Forcing, Harmonic
+from rocking.model.quantity import ANGLE, BRACE_ANGLE, CRITICAL_ANGLE, RESTITUTION, VELOCITY
 from rocking.model.validation import (
     Refusal,
     Text,
@@ -23,38 +24,22 @@ from rocking.model.validation import (
     within,
 )
 
-BRACE_ANGLES = (1e-3, 1e3)
-CRITICAL_ANGLES = (1e-3, 1.2)
 MODELS = ("slender", "full")
 """Equations of motion: with small angles, or without."""
 NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
 """Quantities of braces for a system without braces."""
 MAX_STATE = 1e300
-MAX_START = 1e3
 MAX_USUAL_ANGLE = 2.0
 """Largest |Θ| of a state or brace without a warning: a block that still moves is often somewhat beyond 1."""
 FORCINGS = "make one: rk.Harmonic(amplitude=2.0, period=1.0) or rk.PiecewiseLinear([0.0, 2.0, 0.0], step=0.1)"
-RANGES = {
-    "amplitude": (0.0, MAX_AMPLITUDE),
-    "velocity": (-MAX_START, MAX_START),
-    "restitution": (0.0, 1.0),
-    "critical_angle": CRITICAL_ANGLES,
-    "brace_angle": BRACE_ANGLES,
-    "brace_restitution": (0.0, 1.0),
-    "phase": (-MAX_PHASE, MAX_PHASE),
-    "angle": (-MAX_START, MAX_START),
-    "frequency": FREQUENCIES,
-    "period": PERIODS,
-}
-"""Ranges of the quantities of a system and an initial state. In a map, the first in this order is the vertical axis."""
 
 
 def _restitution(value: float) -> float:
-    return within("restitution", value, 0, 1)
+    return RESTITUTION.checked(value)
 
 
 def _brace_angle(value: float) -> float:
-    return within("angle", value, *BRACE_ANGLES)
+    return BRACE_ANGLE.checked(value, "angle")
 
 
 def _angle(value: float) -> float:
@@ -124,7 +109,7 @@ def _restitution_table(value: Iterable[tuple[float, float]]) -> tuple[tuple[floa
 
 
 def _critical_angle(value: float | None) -> float | None:
-    return None if value is None else within("critical_angle", value, *CRITICAL_ANGLES)
+    return None if value is None else CRITICAL_ANGLE.checked(value)
 
 
 @frozen
@@ -313,7 +298,7 @@ def critical_angle_for(model: str, angle: float, width: float) -> float | None:
     """Return the critical angle of a block, None for the slender model; ValueError if the full equation does not take it."""
     if one_of("model", model, MODELS) == "slender":
         return None
-    low, high = CRITICAL_ANGLES
+    low, high = CRITICAL_ANGLE.range
     allowed = f"give a critical angle atan({{width}}/{{height}}) in [{low}, {high}] with the full equation"
     refuse_if(not low <= angle <= high, "width", allowed, width)
     return angle
@@ -344,8 +329,8 @@ def check_start(system: System, start: State | None) -> State:
     """
     instance("system", system, System)
     start = State() if start is None else instance("start", start, State)
-    within("angle", start.angle, -MAX_START, MAX_START)
-    within("velocity", start.velocity, -MAX_START, MAX_START)
+    ANGLE.checked(start.angle)
+    VELOCITY.checked(start.velocity)
     if system.braces is not None:
         check_between(start.angle, system.braces.angle)
     if system.critical_angle is not None:

@@ -11,10 +11,11 @@ from attrs import field, frozen
 
 from rocking.kernels import event_kinds as kernel
 from rocking.kernels.march import resample
-from rocking.model.forcing import MAX_PHASE, Harmonic
+from rocking.model.forcing import Harmonic
+from rocking.model.quantity import PHASE
 from rocking.model.result import ReadOnlyArrays, read_only
 from rocking.model.system import State, System
-from rocking.model.validation import Refusal, reals, refuse_if, within
+from rocking.model.validation import Refusal, reals, refuse_if
 from rocking.model.verdict import Outcome, Overturning
 from rocking.motion.march_loop import parameters, section_of
 
@@ -207,7 +208,7 @@ class Trajectory(ReadOnlyArrays):
             if self.record == "section":
                 return self._section_rows
             phase = self.system.periodic.phase
-        return section_of(self.system, self.start, self.cycles, within("phase", phase, -MAX_PHASE, MAX_PHASE))
+        return section_of(self.system, self.start, self.cycles, PHASE.checked(phase))
 
     @cached_property
     def _numbers(self) -> Any:

@@ -11,8 +11,8 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import continuation as kernel
-from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import Orbit, Stability, stability_of
+from rocking.model.quantity import PHASE
 from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.validation import WrongType, whole, within
 from rocking.orbits.datasets import of_branch
@@ -365,7 +365,7 @@ class Branch(ReadOnlyArrays, Result):
         >>> branch.section(0.5).shape == (len(branch), 1, 2)
         True
         """
-        return self._rows.section(within("phase", phase, -MAX_PHASE, MAX_PHASE))
+        return self._rows.section(PHASE.checked(phase))
 
     def to_xarray(self) -> xr.Dataset:
         """Return the branch as a dataset, which xarray writes to netCDF and pandas to CSV.

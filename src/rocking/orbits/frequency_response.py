@@ -12,8 +12,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model.forcing import MAX_AMPLITUDE, Harmonic
+from rocking.model.forcing import Harmonic
 from rocking.model.orbit import Mode, Orbit
+from rocking.model.quantity import AMPLITUDE, SYSTEM_QUANTITIES
 from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.system import System
 from rocking.model.validation import Refusal, WrongType, exactly_one, reals, refuse_if, whole, within
@@ -21,7 +22,7 @@ from rocking.model.verdict import Kind
 from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
-from rocking.orbits.parameter import LONG_NAMES, check_range, check_step, coordinate_of, kinds_of
+from rocking.orbits.parameter import check_range, check_step, coordinate_of, kinds_of
 from rocking.response.classify import classify
 from rocking.theory import symmetric_modes
 
@@ -123,7 +124,7 @@ class FrequencyResponse(ReadOnlyArrays, Result):
         }
         counts = [len(branch) for branch in self.branches]
         for column, text in (
-            ("parameter", LONG_NAMES[name]),
+            ("parameter", SYSTEM_QUANTITIES[name].text),
             ("stable", "1 if the orbit is stable"),
             ("peak", "largest magnitude of the angle of the orbit"),
         ):
@@ -243,7 +244,7 @@ def frequency_response(
     """
     parameter = exactly_one(period=period, frequency=frequency)
     values = _values(parameter, period if frequency is None else frequency)
-    amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
+    amplitude = AMPLITUDE.checked(amplitude)
     refuse_if(
         amplitude == 0.0, "amplitude", "be above 0: without forcing there is no (1, n) orbit", amplitude
     )

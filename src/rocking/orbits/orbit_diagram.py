@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
-from rocking.model.forcing import MAX_PHASE
+from rocking.model.quantity import PHASE
 from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.system import State, System, check_constant_restitution, check_periodic
-from rocking.model.validation import TooManyEvents, check_progress, instance, one_of, whole, within
+from rocking.model.validation import TooManyEvents, check_progress, instance, one_of, whole
 from rocking.motion.march_loop import start_march
 from rocking.orbits.parameter import PARAMETERS, coordinate_of, fixed_quantities, ordered_values, with_value
 
@@ -238,7 +238,7 @@ def orbit_diagram(
     transient = whole("transient", transient, 0, MAX_CYCLES)
     cycles = whole("cycles", cycles, 1, max(MAX_POINTS // (len(ways) * len(ordered)), 1))
     section_phase = system.periodic.phase if section_phase is None else section_phase
-    section_phase = within("section_phase", section_phase, -MAX_PHASE, MAX_PHASE)
+    section_phase = PHASE.checked(section_phase, "section_phase")
     rows = np.array([_row(with_value(system, parameter, value), start) for value in ordered.tolist()])
     lanes = _lanes(rows, ways, cycles)
     _run(lanes, start, "rest" not in ways, transient, section_phase, progress)

@@ -12,8 +12,8 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import saddle_manifold as kernel
-from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import Orbit
+from rocking.model.quantity import PHASE
 from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.system import State
 from rocking.model.validation import Refusal, instance, within
@@ -174,7 +174,7 @@ def orbit_manifolds(
         allowed = f"have a multiplier of at least {SLOWEST} in modulus, so that its manifolds grow in reasonable time"
         raise Refusal("orbit", allowed, moduli[1])
     length, spacing = within("length", length, *LENGTHS), within("spacing", spacing, *SPACINGS)
-    phase = orbit.phase if phase is None else within("phase", phase, -MAX_PHASE, MAX_PHASE)
+    phase = orbit.phase if phase is None else PHASE.checked(phase)
     points = np.array(
         [[(state := orbit.at(phase + math.tau * k)).angle, state.velocity] for k in range(orbit.period)]
     )

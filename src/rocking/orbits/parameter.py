@@ -10,26 +10,20 @@ from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.forcing import Harmonic
-from rocking.model.system import RANGES, Braces, System, quantities
+from rocking.model.quantity import SYSTEM_QUANTITIES
+from rocking.model.system import Braces, System, quantities
 from rocking.model.validation import Refusal, pair, reals, refuse_if, within
 from rocking.model.verdict import Kind
 
-PARAMETERS = (
-    "amplitude",
-    "period",
-    "frequency",
-    "phase",
-    "restitution",
-    "brace_angle",
-    "brace_restitution",
-    "critical_angle",
-)
+PARAMETERS = tuple(name for name in SYSTEM_QUANTITIES if name not in ("angle", "velocity"))
 # Argument of a system without which a parameter has no value.
 MISSING = dict.fromkeys(("brace_angle", "brace_restitution"), "braces=Braces(…)") | {
     "critical_angle": "critical_angle=…"
 }
 # Ranges of the model. Towards a coefficient of restitution of 0, an orbit cannot be continued.
-ALLOWED = RANGES | dict.fromkeys(("restitution", "brace_restitution"), (1e-3, 1.0))
+ALLOWED = {name: each.range for name, each in SYSTEM_QUANTITIES.items()} | dict.fromkeys(
+    ("restitution", "brace_restitution"), (1e-3, 1.0)
+)
 # Range of the largest step along a branch or a curve, in units of the ranges and of one radian of phase.
 STEPS = 1e-6, 0.1
 
@@ -95,22 +89,9 @@ def check_step(step: float) -> float:
     return within("step", step, *STEPS)
 
 
-LONG_NAMES = {
-    "amplitude": "amplitude of the base acceleration, A",
-    "period": "forcing period, T",
-    "frequency": "angular frequency of the forcing, Omega",
-    "phase": "initial forcing phase, phi",
-    "restitution": "coefficient of restitution of an impact, e",
-    "brace_angle": "brace angle, Theta_b",
-    "brace_restitution": "coefficient of restitution of a brace impact, r",
-    "critical_angle": "critical angle of the block, theta_cr",
-}
-IN_RADIANS = ("phase", "critical_angle")
-
-
 def coordinate_of(along: str, name: str, values: Any) -> tuple[str, Any, dict[str, str]]:
     """Return the values of a parameter as a variable."""
-    return along, values, {"long_name": LONG_NAMES[name], "units": "rad" if name in IN_RADIANS else "1"}
+    return along, values, SYSTEM_QUANTITIES[name].attributes
 
 
 def kinds_of(along: str, kinds: Iterable[str], text: str) -> tuple[str, Any, dict[str, Any]]:

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from rocking.kernels.march import march
 from rocking.kernels.orbits import saddle_manifold as kernel
-from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import OrbitEvent
+from rocking.model.quantity import PHASE
 from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.system import State, System
 from rocking.model.validation import Refusal, TooManyEvents, instance, refuse_if, whole, within
@@ -320,7 +320,7 @@ def saddle_manifolds(
     True
     """
     check(system)
-    phase = system.harmonic.phase if phase is None else within("phase", phase, -MAX_PHASE, MAX_PHASE)
+    phase = system.harmonic.phase if phase is None else PHASE.checked(phase)
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)
     spacing = within("spacing", spacing, *SPACINGS)
     unstable, stable = (

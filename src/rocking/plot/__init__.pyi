@@ -1,6 +1,6 @@
 """Public names of the plots, and where they are defined: the only table of them."""
 
-from rocking.plot import palette as palette
+from rocking.plot import palette  # noqa: F401 (not exported)
 from rocking.plot.branch_lines import branch as branch
 from rocking.plot.branch_lines import cascade as cascade
 from rocking.plot.branch_lines import frequency_response as frequency_response

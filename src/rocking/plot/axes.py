@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 from attrs import frozen
 
 from rocking.model.block import Block
+from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.validation import instance
 
 
@@ -85,42 +87,12 @@ def quantities(block: Block | None) -> Quantities:
     )
 
 
-PARAMETERS = {
-    "amplitude": r"amplitude $A$",
-    "period": r"period $T$",
-    "frequency": r"frequency $\Omega$",
-    "phase": r"phase $\varphi$ (rad)",
-    "restitution": r"coefficient of restitution $e$",
-    "brace_angle": r"brace angle $\Theta_\mathrm{b}$",
-    "brace_restitution": r"coefficient of restitution of the braces $r$",
-    "critical_angle": r"critical angle $\theta_\mathrm{cr}$ (rad)",
-    "angle": r"initial angle $\Theta_0$",
-    "velocity": r"initial velocity $\Theta'_0$",
-}
-SI_PARAMETERS = {
-    "amplitude": r"amplitude $a_x$ (m/s²)",
-    "period": r"period (s)",
-    "frequency": r"frequency (Hz)",
-    "brace_angle": r"brace angle $\theta_\mathrm{b}$ (°)",
-    "angle": r"initial angle $\theta_0$ (°)",
-    "velocity": r"initial velocity $\dot\theta_0$ (°/s)",
-}
-
-
 def parameter(name: str, block: Block | None) -> tuple[Callable[[Any], Any], str]:
     """Return the conversion of a parameter of a system or an initial state, and the label of its axis."""
-    if block is None or name not in SI_PARAMETERS:
-        return np.asarray, PARAMETERS[name]
-    shown = quantities(block)
-    turns: dict[str, Callable[[Any], Any]] = {
-        "amplitude": shown.amplitude,
-        "period": shown.time,
-        "frequency": block.hertz,
-        "brace_angle": shown.angle,
-        "angle": shown.angle,
-        "velocity": shown.velocity,
-    }
-    return turns[name], SI_PARAMETERS[name]
+    if block is not None:
+        instance("block", block, Block)
+    conversion, label = SYSTEM_QUANTITIES[name].axis(block)
+    return partial(conversion, block), label
 
 
 SYMBOLS = {

@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
 
 from rocking.model.block import Block
-from rocking.model.forcing import MAX_PHASE
 from rocking.model.orbit import Orbit, Stability
-from rocking.model.validation import Refusal, WrongType, instance, one_of, within
+from rocking.model.quantity import PHASE
+from rocking.model.validation import Refusal, WrongType, instance, one_of
 from rocking.model.verdict import Kind
 from rocking.orbits.branch import BRANCHES_OFF, Branch
 from rocking.orbits.cascade import Cascade
@@ -202,7 +202,7 @@ def branch(
             "be another one for orbits that rest or stay in contact with a brace: their multipliers are 0"
         )
         raise Refusal("quantity", allowed, quantity)
-    phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
+    phase = PHASE.checked(phase)
     shown = quantities(block)
     across, x_label = parameter(branches[0].name, block)
     scales: dict[str, Callable[[Any], Any]] = {"velocity": shown.velocity, "multiplier": np.asarray}
@@ -404,7 +404,7 @@ def orbits(
     ['stable', 'unstable']
     """
     instance("result", result, Orbits)
-    psi = result.system.periodic.phase if phase is None else within("phase", phase, -MAX_PHASE, MAX_PHASE)
+    psi = result.system.periodic.phase if phase is None else PHASE.checked(phase)
     shown = quantities(block)
     ax = style.own(ax, height=2.9)
     for stability, (colour, marker) in LOOKS.items():

@@ -8,9 +8,9 @@ from matplotlib.ticker import FixedLocator
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.block import Block
-from rocking.model.forcing import MAX_PHASE
+from rocking.model.quantity import PHASE
 from rocking.model.text import counted
-from rocking.model.validation import Refusal, WrongType, instance, reals, refuse_if, whole, within
+from rocking.model.validation import Refusal, WrongType, instance, reals, refuse_if, whole
 from rocking.motion.motion import Motion
 from rocking.plot import style
 from rocking.plot.axes import quantities
@@ -71,7 +71,7 @@ def section(
     301
     """
     if phase is not None:
-        phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
+        phase = PHASE.checked(phase)
     points = result.section(phase) if isinstance(result, Motion) else _points(result)
     points = points[whole("transient", transient, 0, len(points) - 1) :]
     if isinstance(result, Motion) and phase is None:

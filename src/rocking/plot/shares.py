@@ -11,12 +11,13 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from rocking.model.block import Block
+from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.survey_results import ChaosShare, OverturningCurve, Repeatability, RepeatabilityMap
 from rocking.model.text import percent
 from rocking.model.validation import Refusal, instance
 from rocking.model.verdict import Kind
 from rocking.plot import palette, style
-from rocking.plot.axes import PARAMETERS, parameter
+from rocking.plot.axes import parameter
 from rocking.plot.style import COLOURS, look_at
 
 DECADES = (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0)
@@ -348,7 +349,7 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
         rasterized=True,
         gid="map",
     )
-    style.label(ax, *(PARAMETERS[str(name)] for name in reversed(data.kind.dims)))
+    style.label(ax, *(SYSTEM_QUANTITIES[str(name)].label for name in reversed(data.kind.dims)))
     names = [*(str(kind) for kind in Kind), "not certain"]
     shares = np.bincount(values.ravel(), minlength=count + 1) / values.size
     handles = [

@@ -15,9 +15,9 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.block import Block
-from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
 from rocking.model.orbit import Mode
-from rocking.model.validation import Refusal, WrongType, members, one_of, reals, refuse_if, within
+from rocking.model.quantity import AMPLITUDE, PERIOD, RESTITUTION
+from rocking.model.validation import Refusal, WrongType, members, one_of, reals, refuse_if
 from rocking.plot import branch_lines, style
 from rocking.plot.axes import parameter, quantities
 from rocking.plot.style import DOTTED
@@ -139,7 +139,7 @@ def lines_of(
     seen[1:] |= seen[:-1].copy()
     seen[:-1] |= seen[1:].copy()
     # a neighbouring point may have no such amplitude, or one above the allowed maximum
-    seen &= amplitudes <= MAX_AMPLITUDE
+    seen &= amplitudes <= AMPLITUDE.range[1]
     sure = _admissible(curve, amplitudes, period, restitution, seen)
 
     def line(part: np.ndarray) -> np.ndarray:
@@ -319,12 +319,12 @@ def modes(
     '(1, 1) modes, $T = 1$, $e = 0.925$'
     """
     one_of("quantity", quantity, ("velocity", "phase"))
-    marked = 0.0 if amplitude is None else within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
-    period, restitution = within("period", period, *PERIODS), within("restitution", restitution, 0.0, 1.0)
+    marked = 0.0 if amplitude is None else AMPLITUDE.checked(amplitude)
+    period, restitution = PERIOD.checked(period), RESTITUTION.checked(restitution)
     here = symmetric_modes(marked, period, restitution, n)
     begins = existence_amplitude(period, restitution, n)
     breaks = symmetry_breaking_amplitude(period, restitution, n)
-    most = min(max(BEYOND * breaks, 1.1 * marked, 1.1 * begins), MAX_AMPLITUDE)
+    most = min(max(BEYOND * breaks, 1.1 * marked, 1.1 * begins), AMPLITUDE.range[1])
     least = begins * (1.0 + NEAR) + NEAR
     ends = (most, min(slower_mode_amplitude(period, n) * (1.0 - NEAR), most))
     shown = quantities(block)
@@ -460,8 +460,8 @@ def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | Non
     >>> [line.get_label() for line in ax.lines][:3]
     ['$M^+$', '$M^-$', 'exact gap']
     """
-    amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
-    period, restitution = within("period", period, *PERIODS), within("restitution", restitution, 0.0, 1.0)
+    amplitude = AMPLITUDE.checked(amplitude)
+    period, restitution = PERIOD.checked(period), RESTITUTION.checked(restitution)
     turns = np.linspace(0.0, 1.0, TIMES_OF_A_CURVE)
     times = turns * period
     upper = melnikov_function(times, amplitude, period, restitution)

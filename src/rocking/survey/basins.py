@@ -11,9 +11,10 @@ import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.progress import Bar
+from rocking.model.quantity import ANGLE
 from rocking.model.share import Share
 from rocking.model.survey_results import Attractor, BasinMap, SafeBasin
-from rocking.model.system import MAX_START, RANGES, System, check_between
+from rocking.model.system import System, check_between
 from rocking.model.validation import WrongType, instance, refuse_if, whole, within
 from rocking.model.verdict import Kind
 from rocking.survey.attractors import destination, label_attractors, make_attractors
@@ -133,7 +134,7 @@ def basin_map(
         if store is not None:
             raise WrongType("store", "be used without {samples}, because it holds a grid", str(store))
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
-        reach = MAX_START if system.braces is None else system.braces.angle
+        reach = ANGLE.range[1] if system.braces is None else system.braces.angle
         check_between(max(ends["angle"], key=abs), reach)
         starts = random.uniform(*_corners(ends), (whole("samples", samples, 1, MAX_SAMPLES), 2))
         shown = "initial states" if instance("progress", progress, bool) else ""
@@ -288,9 +289,7 @@ def safe_basin(
     asked = question(given, 1, "a safe basin")
     if "amplitude" not in asked.axes:
         raise WrongType("amplitude", "be an axis of amplitudes, ascending", amplitude)
-    reach = (
-        RANGES["angle"] if brace_angle is None else (-asked.fixed["brace_angle"], asked.fixed["brace_angle"])
-    )
+    reach = ANGLE.range if brace_angle is None else (-asked.fixed["brace_angle"], asked.fixed["brace_angle"])
     low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
     starts = generator(seed).uniform(low, high, (whole("samples", samples, 1, MAX_SAMPLES), 2))
     amplitudes, kinds = asked.axes["amplitude"].tolist(), []

@@ -13,9 +13,10 @@ from rocking.kernels.march import finite_runs as kernel
 from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.package import VERSION
+from rocking.model.quantity import ANGLE
 from rocking.model.record_results import SWITCH_ROW, OverturningSet, intervals_of
 from rocking.model.record_set import Intensity, RecordSet, intensity_of, record_set
-from rocking.model.system import MODELS, RANGES
+from rocking.model.system import MODELS
 from rocking.model.validation import Refusal, instance, one_of, within
 from rocking.survey.ending_measures import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled
 from rocking.survey.measurement import Arrays
@@ -129,7 +130,7 @@ def overturning_set(
     """
     chosen, block = record_set(records), instance("block", block, Block)
     scales = axis("scales", scales, LEVELS)
-    angle = within("angle", angle, *RANGES["angle"])
+    angle = ANGLE.checked(angle)
     if within("polarity", polarity, -1.0, 1.0) not in (-1.0, 1.0):
         raise Refusal("polarity", "be 1 or -1", polarity)
     measure, values = intensity_of(intensity, chosen)

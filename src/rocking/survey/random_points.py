@@ -11,11 +11,10 @@ from attrs import field, frozen
 
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY, frequency_parameter
-from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.progress import Bar
+from rocking.model.quantity import AMPLITUDE, PERIOD, SYSTEM_QUANTITIES
 from rocking.model.record_set import RecordSet
-from rocking.model.system import RANGES
 from rocking.model.validation import Refusal, Text, WrongType, instance, reals, whole
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.run_survey import count_when_done, engine
@@ -57,7 +56,7 @@ def generator(seed: int) -> np.random.Generator:
 
 def span(name: str, values: Any, widest: tuple[float, float] | None = None) -> tuple[float, float]:
     """Check a range (low, high) of random numbers: low < high, both within the range of the quantity."""
-    low, high = widest or RANGES[name]
+    low, high = widest or SYSTEM_QUANTITIES[name].range
     allowed = f"be a pair (low, high) in [{low:.6g}, {high:.6g}] with low < high"
     try:
         pair = np.asarray(reals(name, values))
@@ -100,8 +99,8 @@ def perturbed(meant: Points, units: np.ndarray, off: float) -> Points:
     amplitude, period, restitution = (
         systems[:, place[name]] for name in ("amplitude", "period", "restitution")
     )
-    np.minimum(amplitude * factors[:, 0], MAX_AMPLITUDE, out=amplitude)
-    np.clip(period * factors[:, 1], *PERIODS, out=period)
+    np.minimum(amplitude * factors[:, 0], AMPLITUDE.range[1], out=amplitude)
+    np.clip(period * factors[:, 1], *PERIOD.range, out=period)
     systems[:, place["frequency"]] = 2.0 * np.pi / period
     # uniform over the part of the range that is possible
     low, high = restitution * (1.0 - off), np.minimum(restitution * (1.0 + off), 1.0)

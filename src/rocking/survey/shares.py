@@ -11,10 +11,11 @@ import numpy as np
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.forcing import Harmonic
 from rocking.model.proof import ProvedShare
+from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.share import Share
 from rocking.model.survey_results import ChaosShare
-from rocking.model.system import NO_BRACES, RANGES, Braces, State, System, check_below_flat
-from rocking.model.validation import Refusal, WrongType, real, whole, within
+from rocking.model.system import NO_BRACES, Braces, State, System, check_below_flat
+from rocking.model.validation import Refusal, WrongType, real, whole
 from rocking.model.verdict import Kind
 from rocking.proof.prove import check_provable
 from rocking.response.classify import KINDS, classify
@@ -103,7 +104,7 @@ def chaos_share(
     fixed = {}
     if brace_angle is not None:
         given = {"brace_angle": brace_angle, "brace_restitution": brace_restitution}
-        fixed = {name: within(name, value, *RANGES[name]) for name, value in given.items()}
+        fixed = {name: SYSTEM_QUANTITIES[name].checked(value) for name, value in given.items()}
     elif real("brace_restitution", brace_restitution) != 1.0:
         raise WrongType("brace_restitution", "be used with {brace_angle}", brace_restitution)
     if critical_angle is not None:

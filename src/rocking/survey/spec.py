@@ -13,15 +13,15 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.kernels.forcing import parameters as numbers
-from rocking.model.block import INERTIA_RATIOS, RECTANGLE, SIZES
+from rocking.model.block import INERTIA_RATIOS, RECTANGLE
 from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
 from rocking.model.forcing import KINDS, SINES
 from rocking.model.ground_motion import GroundMotion
+from rocking.model.quantity import CRITICAL_ANGLE, RUN_QUANTITIES, SYSTEM_QUANTITIES
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
 from rocking.model.system import (
     MODELS,
     NO_BRACES,
-    RANGES,
     System,
     check_below_flat,
     check_between,
@@ -116,20 +116,6 @@ def is_axis(value: Any) -> bool:
     ) > 0
 
 
-SYMBOLS = {
-    "amplitude": ("A", "amplitude of the base acceleration in units of g theta_cr"),
-    "velocity": ("Θ'", "initial angular velocity in units of alpha theta_cr"),
-    "restitution": ("e", "coefficient of restitution"),
-    "brace_angle": ("Θb", "angle of the braces in units of theta_cr"),
-    "brace_restitution": ("r", "coefficient of restitution of the braces"),
-    "phase": ("φ", "phase of the base acceleration"),
-    "angle": ("Θ", "initial angle in units of theta_cr"),
-    "frequency": ("Ω", "forcing frequency in radians per normalised time"),
-    "period": ("T", "forcing period in normalised time"),
-    "critical_angle": ("θcr", "critical angle"),
-}
-
-
 SYSTEM = (
     "amplitude",
     "frequency",
@@ -178,7 +164,7 @@ class HarmonicSpec(SurveySpec):
 
     def described(self) -> dict[str, Any]:
         """Return the quantities that do not vary, by name, in the order of the dataset attributes."""
-        return {name: self.fixed[name] for name in RANGES if name in self.fixed}
+        return {name: self.fixed[name] for name in SYSTEM_QUANTITIES if name in self.fixed}
 
     def coordinate(self, name: str) -> dict[str, str]:
         """Return the attributes of a coordinate."""
@@ -187,12 +173,7 @@ class HarmonicSpec(SurveySpec):
 
 def coordinate(name: str) -> dict[str, str]:
     """Return the attributes of a coordinate."""
-    symbol, long_name = SYMBOLS[name]
-    return {
-        "long_name": long_name,
-        "symbol": symbol,
-        "units": "rad" if name in ("phase", "critical_angle") else "1",
-    }
+    return SYSTEM_QUANTITIES[name].attributes
 
 
 def question(asked: Mapping[str, Any], count: int, what: str) -> HarmonicSpec:
@@ -208,7 +189,7 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> HarmonicSpec:
         If a value lies outside its range.
     """
     exactly_one(period=asked.get("period"), frequency=asked.get("frequency"))
-    given = {name: asked[name] for name in RANGES if asked.get(name) is not None}
+    given = {name: asked[name] for name in SYSTEM_QUANTITIES if asked.get(name) is not None}
     missing = [name for name in ("amplitude", "restitution") if name not in given]
     if missing:
         raise Incomplete(what, " and ".join(f"{{{name}}}" for name in missing), Text("none"))
@@ -230,7 +211,7 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> HarmonicSpec:
 
 def check_quantity(name: str, value: Any) -> float | np.ndarray:
     """Check a number or an axis of one quantity."""
-    return number_or_axis(name, value, RANGES[name])
+    return number_or_axis(name, value, SYSTEM_QUANTITIES[name].range)
 
 
 def _counted(count: int) -> str:
@@ -280,15 +261,6 @@ def _within_a_turn(phases: np.ndarray) -> np.ndarray:
 MAX_LEVEL = 1e6
 SLENDERNESSES = 1e-4, 1.57
 """Range of the critical angle, rad."""
-RUN_QUANTITIES: dict[str, tuple[str, str, str, tuple[float, float]]] = {
-    "size": ("R", "distance from a corner to the centre of mass", "m", SIZES),
-    "slenderness": ("θcr", "critical angle", "rad", SLENDERNESSES),
-    "restitution": ("e", "coefficient of restitution", "1", RANGES["restitution"]),
-    "angle": ("Θ", "initial angle in units of theta_cr", "1", RANGES["angle"]),
-    "polarity": ("±", "direction of the ground motion", "1", (-1.0, 1.0)),
-    "scale": ("s", "factor of the ground motion", "1", (1e-9, MAX_LEVEL)),
-}
-"""Symbol, description, unit and range of each quantity, in the order of the dimensions; records come first."""
 
 
 class Runs(NamedTuple):
@@ -368,10 +340,13 @@ class MotionSpec(SurveySpec):
         """Return the attributes of a coordinate."""
         if name == "record":
             return {"long_name": "number of the record, from 0"}
-        symbol, long_name, unit, _ = RUN_QUANTITIES[name]
         if name == "scale":
-            symbol, long_name, unit = self.measure.symbol, self.measure.long_name, self.measure.unit
-        return {"long_name": long_name, "symbol": symbol, "units": unit}
+            return {
+                "long_name": self.measure.long_name,
+                "symbol": self.measure.symbol,
+                "units": self.measure.unit,
+            }
+        return RUN_QUANTITIES[name].attributes
 
 
 def motion_question(
@@ -394,9 +369,9 @@ def motion_question(
         Housner's restitution.
     """
     model = one_of("model", model, MODELS)
-    spans = {name: span for name, (*_, span) in RUN_QUANTITIES.items()}
+    spans = {name: each.range for name, each in RUN_QUANTITIES.items()}
     if model == "full":
-        spans["slenderness"] = RANGES["critical_angle"]
+        spans["slenderness"] = CRITICAL_ANGLE.range
     checked: dict[str, Any] = {
         name: number_or_axis(name, given.get(name), span)
         for name, span in spans.items()
@@ -442,13 +417,8 @@ def _each(formula: Any, values: np.ndarray, inertia_ratio: float) -> np.ndarray:
     return np.array([formula(value, inertia_ratio) for value in distinct.tolist()])[places]
 
 
-PULSE_QUANTITIES: dict[str, tuple[str, str]] = {
-    "amplitude": ("A", "largest base acceleration in units of g theta_cr"),
-    "frequency": ("Ω", "frequency of the pulse in radians per normalised time"),
-    "restitution": ("e", "coefficient of restitution"),
-    "critical_angle": ("θcr", "critical angle of the full equation of motion in rad"),
-}
-"""Symbol and description of each quantity, in the order of the dimensions."""
+PULSE_QUANTITIES = ("amplitude", "frequency", "restitution", "critical_angle")
+"""Quantities of a survey of pulses, in the order of the dimensions."""
 
 
 class Pulses(NamedTuple):
@@ -494,8 +464,7 @@ class PulseSpec(SurveySpec):
 
     def coordinate(self, name: str) -> dict[str, str]:
         """Return the attributes of a coordinate."""
-        symbol, long_name = PULSE_QUANTITIES[name]
-        return {"long_name": long_name, "symbol": symbol, "units": "1"}
+        return SYSTEM_QUANTITIES[name].attributes
 
 
 def pulse_question(
@@ -518,7 +487,7 @@ def pulse_question(
         if name in ("amplitude", "frequency") and not is_axis(value):
             allowed = "be an ascending array, an axis of the spectrum"
             raise WrongType(name, allowed, value, "such as np.linspace(start, stop, count)")
-        checked = number_or_axis(name, value, RANGES[name])
+        checked = number_or_axis(name, value, SYSTEM_QUANTITIES[name].range)
         if isinstance(checked, np.ndarray):
             axes[name] = checked
         else:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
+from rocking.model.quantity import AMPLITUDE, PERIOD
 from rocking.model.validation import Refusal, Text, one_of, reals
 
 MAX_CYCLES = 9_999
@@ -41,12 +41,12 @@ def together(**values: Any) -> list[Any]:
 
 def amplitudes(values: Any) -> Any:
     """Return amplitudes A, checked."""
-    return between("amplitude", values, 0.0, MAX_AMPLITUDE)
+    return between("amplitude", values, 0.0, AMPLITUDE.range[1])
 
 
 def frequencies(period: Any) -> Any:
     """Return the angular frequencies Ω = 2π/T of periods T, checked."""
-    return math.tau / between("period", period, *PERIODS)
+    return math.tau / between("period", period, *PERIOD.range)
 
 
 def restitutions(values: Any) -> Any:

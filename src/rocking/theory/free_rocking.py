@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from rocking.model.quantity import RESTITUTION
 from rocking.model.validation import reals, within
 from rocking.theory.arguments import between, plain, restitutions, side_of, sizes, together
 
@@ -239,7 +240,7 @@ def free_time_to_rest(angle: float, restitution: float) -> float:
     8.837445
     """
     angle = within("angle", angle, 0.0, 1.0)
-    e = within("restitution", restitution, 0.0, 1.0)
+    e = RESTITUTION.checked(restitution)
     if e < 1.0:
         within("restitution", e, 0.0, 1.0 - 1e-6)
     if angle == 0.0:

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.orbits import saddle_manifold
-from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
+from rocking.model.quantity import AMPLITUDE, PERIOD, RESTITUTION
 from rocking.model.validation import finite, within
 from rocking.theory.arguments import amplitudes, frequencies, plain, restitutions, side_of, sizes, together
 from rocking.theory.free_rocking import heteroclinic_orbit
@@ -412,9 +412,9 @@ def melnikov_integral(
     from scipy.integrate import quad
 
     time = finite("time", time, MAX_TIME)
-    amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
-    omega = math.tau / within("period", period, *PERIODS)
-    restitution, width = within("restitution", restitution, 0.0, 1.0), within("width", width, *WIDTHS)
+    amplitude = AMPLITUDE.checked(amplitude)
+    omega = math.tau / PERIOD.checked(period)
+    restitution, width = RESTITUTION.checked(restitution), within("width", width, *WIDTHS)
 
     def speed(tau: float) -> float:
         return heteroclinic_orbit(tau, orbit)[1]

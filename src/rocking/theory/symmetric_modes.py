@@ -13,9 +13,9 @@ import numpy as np
 
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.orbits import floquet, mode_admissibility, symmetric_mode
-from rocking.model.forcing import MAX_AMPLITUDE, PERIODS
 from rocking.model.orbit import Mode
-from rocking.model.validation import Refusal, whole, within
+from rocking.model.quantity import AMPLITUDE, PERIOD, RESTITUTION
+from rocking.model.validation import Refusal, whole
 from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restitutions, together
 
 
@@ -204,9 +204,9 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
     >>> rk.theory.symmetric_modes(0.2, 1.0, 0.8, 1)
     []
     """
-    amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
-    omega = math.tau / within("period", period, *PERIODS)
-    e = within("restitution", restitution, 0.0, 1.0)
+    amplitude = AMPLITUDE.checked(amplitude)
+    omega = math.tau / PERIOD.checked(period)
+    e = RESTITUTION.checked(restitution)
     if e == 0.0:
         remedy = "an impact that stops the block leaves no mode"
         raise Refusal("restitution", "lie in (0, 1] for symmetric modes", restitution, remedy)
