@@ -262,8 +262,8 @@ class Search(NamedTuple):
                 "whether an event comes is not decided: the motion nearly touches the base or a brace"
             )
         middle = ((low + high) / 2).mid()
-        found = self.bracket(low, middle, self.height(middle), order, depth + 1)
-        return self.bracket(middle, high, end, 0, depth + 1) if found is None else found
+        result = self.bracket(low, middle, self.height(middle), order, depth + 1)
+        return self.bracket(middle, high, end, 0, depth + 1) if result is None else result
 
     def time(self, low: arb, high: arb) -> arb:
         """Return the time of the only zero in an interval where the function falls.
@@ -284,9 +284,9 @@ class Search(NamedTuple):
             around = hull(middle - width, middle + width)
             slope = self.function(around).first
             if slope < 0:
-                found = middle - here.value / slope
-                if around.contains_interior(found):
-                    return found
+                result = middle - here.value / slope
+                if around.contains_interior(result):
+                    return result
             width *= 4
         raise Refused("the time of an event is not enclosed")
 

@@ -52,12 +52,12 @@ def norm(matrix: arb_mat) -> arb:
     return (half + (half * half - square.det()).nonnegative_part().sqrt()).sqrt()
 
 
-def neighbourhood(orbit: Enclosed, found: Orbit) -> Neighbourhood:
+def neighbourhood(orbit: Enclosed, result: Orbit) -> Neighbourhood:
     """Return a disc around a stable orbit, on its section, from which all motions converge to it."""
-    p, phase, unit = orbit.p, arb(found.phase), arb_mat([[1, 0], [0, 1]])
-    here = orbit.state(phase, found.period)
+    p, phase, unit = orbit.p, arb(result.phase), arb_mat([[1, 0], [0, 1]])
+    here = orbit.state(phase, result.period)
     at = States(here.side, phase, arb_mat([[here.angle], [here.velocity]]), unit, (arb(0), arb(0)))
-    tangent = after_cycles(p, at, found.period)
+    tangent = after_cycles(p, at, result.period)
     matrix = doubles(tangent)
     scaled = matrix / (0.5 * (1.0 + max(abs(np.linalg.eigvals(matrix)))))
     # P = scaled' P scaled + 1 (Stein's equation), row by row
@@ -71,11 +71,11 @@ def neighbourhood(orbit: Enclosed, found: Orbit) -> Neighbourhood:
     for _ in range(TRIALS):
         kept = math.inf
         with suppress(Refused):
-            moved = after_cycles(p, at._replace(basis=axes, radii=(arb(radius), arb(radius))), found.period)
+            moved = after_cycles(p, at._replace(basis=axes, radii=(arb(radius), arb(radius))), result.period)
             kept = above(norm(inverse * moved))
         if kept < 1.0:
             middle = here.side * at.centre
-            return Neighbourhood(found.phase, middle, inverse, arb(radius), below(radius / norm(inverse)))
+            return Neighbourhood(result.phase, middle, inverse, arb(radius), below(radius / norm(inverse)))
         # The norm grows about linearly with the radius.
         radius *= SHORT * (1.0 - still) / (kept - still) if kept < math.inf else FACTOR
     raise Refused("no neighbourhood is proved to converge to the orbit")

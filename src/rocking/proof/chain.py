@@ -102,15 +102,15 @@ def link(p: Balls, side: int, ends: tuple[arb, arb], phases: tuple[arb, arb]) ->
 
 def links_of(p: Balls, chain: Chain, phases: list[arb]) -> list[Link] | None:
     """Return the arcs of a chain; None if events may change their order."""
-    turn, found = chain.half_turns * arb.pi(), []
+    turn, result = chain.half_turns * arb.pi(), []
     for j, side in enumerate(chain.sides):
         after = (j + 1) % len(phases)
         later = phases[after] + turn if after == 0 else phases[after]
         if not later > phases[j]:
             return None
         ends = place(p, chain.kinds[j]), place(p, chain.kinds[after])
-        found.append(link(p, side, ends, (phases[j], later)))
-    return found
+        result.append(link(p, side, ends, (phases[j], later)))
+    return result
 
 
 def residuals(p: Balls, chain: Chain, links: list[Link]) -> arb_mat:

@@ -172,8 +172,8 @@ def pairs(p: Balls, chains: list[Chain]) -> list[tuple[Chain, Chain]]:
 
 def word_of(p: Balls, chain: Chain) -> Word:
     """Return the word of a proved closed chain; raise Refused if it is not proved."""
-    found, _ = solved(p, chain)
-    return Word(chain, [psi.mid() for psi in found.box])
+    result, _ = solved(p, chain)
+    return Word(chain, [psi.mid() for psi in result.box])
 
 
 def block_links(p: Balls, word: Word, phases: list[arb]) -> list[Link]:
@@ -267,10 +267,10 @@ def whole_chains(p: Balls, orbits: list[Orbit]) -> Iterator[Chain]:
         if not orbit.superstable and (orbit.impacts or orbit.brace_hits):
             try:
                 chain = chain_of(orbit)
-                found, _ = solved(p, chain)
+                result, _ = solved(p, chain)
             except Refused:
                 continue
-            yield whole_chain(chain, [float(psi) for psi in found.box])
+            yield whole_chain(chain, [float(psi) for psi in result.box])
 
 
 def word_shift_of(system: System, orbits: list[Orbit]) -> Horseshoe:

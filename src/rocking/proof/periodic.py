@@ -198,21 +198,21 @@ def solved(p: Balls, chain: Chain) -> tuple[Solution, list[Link]]:
     """
     if not chain.closes:
         raise Refused("the events do not close the orbit")
-    found = solve(equations(p, chain), list(chain.phases))
-    links = links_of(p, chain, found.box)
+    result = solve(equations(p, chain), list(chain.phases))
+    links = links_of(p, chain, result.box)
     if links is None:
         raise Refused("two events may come at the same time")
     check_arcs(p, chain, links)
-    return found, links
+    return result, links
 
 
 def enclosed(p: Balls, chain: Chain) -> Enclosed:
     """Return the only orbit near a chain, with its least period and its symmetry; raise Refused as `solved` does."""
-    found, links = solved(p, chain)
-    if not is_least(chain, found.box):
+    result, links = solved(p, chain)
+    if not is_least(chain, result.box):
         raise Refused("a shorter period, or another symmetry, is not excluded")
     matrix = monodromy(p, chain, links)
-    return Enclosed(p, chain, found, links, matrix[0, 0] + matrix[1, 1], determinant(p, chain))
+    return Enclosed(p, chain, result, links, matrix[0, 0] + matrix[1, 1], determinant(p, chain))
 
 
 def check_arcs(p: Balls, chain: Chain, links: list[Link]) -> None:

@@ -90,14 +90,14 @@ def flight(p: Balls, state: State) -> Flight:
     if p.brace_angle is not None:
         searches.append((Search(arc, BRACE), int(state.at_brace)))
     for number in range(WINDOWS):
-        found = []
+        result = []
         for search, order in searches:
             time = search.first(arb(step * number), arb(step * (number + 1)), 0 if number else order)
             if time is not None:
-                found.append((time, search.event))
-        if found:
-            time, event = min(found, key=lambda one: float(one[0]))
-            if any(not time < other for other, name in found if name != event):
+                result.append((time, search.event))
+        if result:
+            time, event = min(result, key=lambda one: float(one[0]))
+            if any(not time < other for other, name in result if name != event):
                 raise Refused("two events may come at the same time")
             return Flight(arc, time, event, arc.at(time).first)
     raise Refused("no event comes for a long time")

@@ -93,13 +93,13 @@ def read(file: TextFile) -> list[Channel]:
         header = [line for line in file.lines[:first] if len(cells(line)) != width]
     named, mentioned = header_units(header)
     step = None if width == 1 else _step(file, places, [row[0] for row in rows])
-    found = []
+    result = []
     for place, (name, unit) in enumerate(titled, width - len(titled)):
         samples = file.numbers(places, [row[place] for row in rows], "a sample")
         stated = frozenset([unit]) if unit else named
         channel = Channel(samples, only(stated or mentioned), step, "text", component=name)
-        found.append(channel._replace(named=stated, mentioned=mentioned))
-    return found
+        result.append(channel._replace(named=stated, mentioned=mentioned))
+    return result
 
 
 def _rows(file: TextFile, first: int, width: int) -> tuple[list[int], list[list[str]]]:
@@ -130,22 +130,22 @@ def _parts(line: str) -> list[str]:
 
 def _heads(file: TextFile, first: int, width: int) -> tuple[int, list[str], list[str]] | None:
     """Return the place and the cells of the last line of titles that begins with the time, and those of a line of units after it."""
-    lines = [(k, found) for k, line in enumerate(file.lines[:first]) if len(found := cells(line)) == width]
-    heads = [k for k, (_, found) in enumerate(lines) if TIME & {*map(str.lower, WORD.findall(found[0]))}]
+    lines = [(k, result) for k, line in enumerate(file.lines[:first]) if len(result := cells(line)) == width]
+    heads = [k for k, (_, result) in enumerate(lines) if TIME & {*map(str.lower, WORD.findall(result[0]))}]
     if not heads:
         return None
     place, head = lines[heads[-1]]
     below = (
-        found for _, found in lines[heads[-1] + 1 :] if _plain(found[0]).lower() in (*TIMES, *OTHER_TIMES)
+        result for _, result in lines[heads[-1] + 1 :] if _plain(result[0]).lower() in (*TIMES, *OTHER_TIMES)
     )
     return place, head, next(below, [])
 
 
 def _titles(file: TextFile, first: int, width: int) -> list[Title]:
     """Return the titles of all columns but the time; an error names a column that may hold another quantity."""
-    found = _heads(file, first, width)
-    assert found is not None
-    place, head, below = found
+    result = _heads(file, first, width)
+    assert result is not None
+    place, head, below = result
     time = {*map(str.lower, WORD.findall(head[0])), *map(str.lower, WORD.findall(below[0] if below else ""))}
     if not time <= {*TIME, *TIMES, "in", "elapsed"}:
         raise file.error(
@@ -183,8 +183,8 @@ def _plain(cell: str) -> str:
 
 def _direction(file: TextFile, first: int, width: int) -> str:
     """Return the direction that the title of the second of two columns names; empty if it names none."""
-    found = _heads(file, first, width) if width == 2 else None
-    words = WORD.findall(IN_BRACKETS.sub("", found[1][1])) if found else []
+    result = _heads(file, first, width) if width == 2 else None
+    words = WORD.findall(IN_BRACKETS.sub("", result[1][1])) if result else []
     names = [word for word in words if not ACCELERATION.fullmatch(word)]
     return " ".join(names) if all(map(DIRECTION.fullmatch, names)) else ""
 
@@ -193,16 +193,16 @@ def _check_titles(file: TextFile, first: int, width: int) -> None:
     """Refuse columns whose titles or unit line state another quantity than acceleration, or times that are not in s."""
     for index in range(first):
         line = file.lines[index]
-        found = bracketed = IN_BRACKETS.findall(line)
+        result = bracketed = IN_BRACKETS.findall(line)
         if not (width > 1 and len(bracketed) == width and bracketed[0].strip().lower() in TIMES):
-            found = titles(line)
-            if len(found) != width or not (SEPARATOR.search(line) or is_line_of_units(line)):
+            result = titles(line)
+            if len(result) != width or not (SEPARATOR.search(line) or is_line_of_units(line)):
                 continue  # words
-        if is_other(found[-1]) or OTHER_QUANTITY.match(cells(line)[-1]):
+        if is_other(result[-1]) or OTHER_QUANTITY.match(cells(line)[-1]):
             units = "m/s², cm/s², mm/s², g or gal"
-            raise file.error(index, f"acceleration in {units} expected; the header gives {shown(found[-1])}")
-        if width > 1 and {*OTHER_TIMES} & {found[0].lower(), *map(str.lower, WORD.findall(cells(line)[0]))}:
-            raise file.error(index, f"times in s expected; the header gives {shown(found[0])}")
+            raise file.error(index, f"acceleration in {units} expected; the header gives {shown(result[-1])}")
+        if width > 1 and {*OTHER_TIMES} & {result[0].lower(), *map(str.lower, WORD.findall(cells(line)[0]))}:
+            raise file.error(index, f"times in s expected; the header gives {shown(result[0])}")
 
 
 def _step(file: TextFile, places: list[int], texts: list[str]) -> float:
@@ -232,12 +232,12 @@ def _uneven(
     uneven = np.abs(steps - most) > 2 * tolerance[1:]
     if uneven.any():
         at = int(np.argmax(uneven)) + 1
-        told = f"{texts[at]} s follows {texts[at - 1]} s, and most steps are {most:.6g} s"
+        message = f"{texts[at]} s follows {texts[at - 1]} s, and most steps are {most:.6g} s"
     else:
         expected = times[0] + most * np.arange(len(times))
         at = int(np.argmax(np.abs(times - expected) > tolerance))
-        told = f"{texts[at]} s where {expected[at]:.6g} s is expected, at a step of {most:.6g} s"
-    return file.error(places[at], f"{rule}: {told}")
+        message = f"{texts[at]} s where {expected[at]:.6g} s is expected, at a step of {most:.6g} s"
+    return file.error(places[at], f"{rule}: {message}")
 
 
 def _rounding(texts: list[str]) -> np.ndarray:

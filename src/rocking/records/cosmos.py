@@ -46,8 +46,8 @@ def _channel(file: TextFile, first: int, line: int) -> tuple[Channel, int]:
     if match is None:
         raise file.error(line, "number of points, unit and format expected")
     header = None
-    while (found := file.find(REALS, first, line)) is not None:
-        header, first = found, found[0] + 1
+    while (result := file.find(REALS, first, line)) is not None:
+        header, first = result, result[0] + 1
     if header is None:
         raise file.error(line, "no line announces the real-header values before this one")
     begin, columns = header[0] + 1, file.layout(header[0], header[1].group(3), header[1].group(4))

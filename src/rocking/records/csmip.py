@@ -72,6 +72,6 @@ def _channel(file: TextFile, first: int, line: int) -> tuple[Channel, int]:
 
 
 def _peak(file: TextFile, pattern: str, first: int, last: int) -> Peak | None:
-    found = file.find(pattern, first, last)
-    unit = unit_of(found[1].group(2)) if found else None
-    return None if found is None or unit is None else file.peak(found[0], found[1].group(1), unit)
+    result = file.find(pattern, first, last)
+    unit = unit_of(result[1].group(2)) if result else None
+    return None if result is None or unit is None else file.peak(result[0], result[1].group(1), unit)

@@ -109,12 +109,12 @@ def read_ground_motion(
     GroundMotion(pulse.csv, 2 samples, step 0.02 s, PGA 0.9807 m/s²)
     """
     given = _given(units, step, baseline)
-    found = _source(source, name)
-    count = len(found.channels)
+    result = _source(source, name)
+    count = len(result.channels)
     number = whole("channel", channel, 1, 10**9)
     if number > count:
-        raise Refusal("channel", f"be 1 to {count}, the channels of {found.name}", channel)
-    return _warned(found, number, *_motion(found, number, given))
+        raise Refusal("channel", f"be 1 to {count}, the channels of {result.name}", channel)
+    return _warned(result, number, *_motion(result, number, given))
 
 
 def read_ground_motions(
@@ -160,9 +160,9 @@ def read_ground_motions(
     [2.0]
     """
     given = _given(units, step, baseline)
-    found = _source(source, name)
-    numbers = range(1, len(found.channels) + 1)
-    return tuple(_warned(found, number, *_motion(found, number, given)) for number in numbers)
+    result = _source(source, name)
+    numbers = range(1, len(result.channels) + 1)
+    return tuple(_warned(result, number, *_motion(result, number, given)) for number in numbers)
 
 
 def read_with_doubts(
@@ -170,8 +170,8 @@ def read_with_doubts(
 ) -> list[tuple[GroundMotion, list[str]]]:
     """Return all channels as `read_ground_motions` does, each with the sentences of its warnings."""
     given = _given(units, step, "none")
-    found = _source(data, name)
-    return [_motion(found, number, given) for number in range(1, len(found.channels) + 1)]
+    result = _source(data, name)
+    return [_motion(result, number, given) for number in range(1, len(result.channels) + 1)]
 
 
 def _given(units: str | None, step: float | None, baseline: str) -> _Given:
@@ -300,10 +300,10 @@ def read_apart(data: bytes, seconds: float, **given: Any) -> list[tuple[GroundMo
         raise RecordError(f"reading takes longer than {seconds:g} s: give a shorter file") from None
     if done.returncode:
         raise RuntimeError(done.stderr.decode(errors="replace"))
-    found: list[tuple[GroundMotion, list[str]]] | Exception = pickle.loads(done.stdout)
-    if isinstance(found, Exception):
-        raise found
-    return found
+    result: list[tuple[GroundMotion, list[str]]] | Exception = pickle.loads(done.stdout)
+    if isinstance(result, Exception):
+        raise result
+    return result
 
 
 def answer() -> None:
@@ -313,14 +313,14 @@ def answer() -> None:
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
-    found: list[tuple[GroundMotion, list[str]]] | Exception
+    result: list[tuple[GroundMotion, list[str]]] | Exception
     try:
-        found = read_with_doubts(data, **given)
+        result = read_with_doubts(data, **given)
     except MemoryError:
-        found = RecordError(f"reading takes more than {memory >> 20:,} MB of memory: give a shorter file")
+        result = RecordError(f"reading takes more than {memory >> 20:,} MB of memory: give a shorter file")
     except (ValueError, TypeError) as error:
-        found = error
-    sys.stdout.buffer.write(pickle.dumps(found))
+        result = error
+    sys.stdout.buffer.write(pickle.dumps(result))
 
 
 FILE = Path(__file__).with_name("0111a.smc")

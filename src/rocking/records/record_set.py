@@ -63,7 +63,7 @@ def rows(path: Path) -> list[Row]:
             raise RecordError(
                 f"{text.name}: columns must have distinct names; got {shown(head)} in column {number + 1}"
             )
-    found = []
+    result = []
     for cells in _cells(lines, text.name):
         if any(cell.strip() for cell in cells):
             place = f"{text.name}, line {lines.line_num}"
@@ -74,10 +74,10 @@ def rows(path: Path) -> list[Row]:
             given = dict.fromkeys(heads, "") | {
                 head: cell.strip() for head, cell in zip(heads, cells, strict=False)
             }
-            found.append(_row(place, path.parent, given))
-    if not found:
+            result.append(_row(place, path.parent, given))
+    if not result:
         raise RecordError(f"{text.name}: the table has no rows")
-    return found
+    return result
 
 
 def _cells(lines: Any, name: str) -> Iterator[list[str]]:
@@ -128,8 +128,8 @@ def _number(place: str, head: str, cell: str) -> float:
     except ValueError:
         value = math.inf
     if not np.isfinite(value):
-        way_out = "" if head in OWN else "; remove the column if it is no number of each record"
-        raise RecordError(f"{place}: column {head!r} must hold numbers; got {shown(cell)}{way_out}")
+        remedy = "" if head in OWN else "; remove the column if it is no number of each record"
+        raise RecordError(f"{place}: column {head!r} must hold numbers; got {shown(cell)}{remedy}")
     return value
 
 
@@ -262,17 +262,17 @@ def _way_out_of(path: Path) -> str:
     )
 
 
-def _of_files(paths: Sequence[Path], given: dict[str, Any], way_out: str = "") -> list[_Member]:
+def _of_files(paths: Sequence[Path], given: dict[str, Any], remedy: str = "") -> list[_Member]:
     """Return the motions of files, each named by its file; by its path if several files have that name."""
     names = Counter(path.name for path in paths)
-    found = []
+    result = []
     for path in paths:
         try:
             motions = read_ground_motions(path, **given)
         except RecordError as error:
-            raise RecordError(f"{error}{_of_several(error) if len(paths) > 1 else ''}{way_out}") from error
-        found += _members(motions, path.name if names[path.name] == 1 else path.as_posix())
-    return found
+            raise RecordError(f"{error}{_of_several(error) if len(paths) > 1 else ''}{remedy}") from error
+        result += _members(motions, path.name if names[path.name] == 1 else path.as_posix())
+    return result
 
 
 def _of_several(error: RecordError) -> str:
@@ -292,21 +292,21 @@ def _members(
 ) -> list[_Member]:
     """Return the motions of one file under its name, with distinct components if there are several."""
     several = Counter(motion.component for motion in motions)
-    found = []
+    result = []
     for number, motion in enumerate(motions, 1):
         component = motion.component
         if len(motions) > 1 and not (component and several[component] == 1):
             component = ", ".join(filter(None, (component, f"channel {number}")))
         named = evolve(motion, name=name, component=component)
         station = (motion.name, motion.step, motion.times.size)
-        found.append(_Member(named, station, numbers or {}, chosen=chosen))
-    return found
+        result.append(_Member(named, station, numbers or {}, chosen=chosen))
+    return result
 
 
 def _of_table(path: Path, given: dict[str, Any]) -> RecordSet:
     table = rows(path)
     names = Counter(row.path.name for row in table)
-    found: list[_Member] = []
+    result: list[_Member] = []
     for row in table:
         own = given | {
             name: value for name, value in (("units", row.units), ("step", row.step)) if value is not None
@@ -325,22 +325,22 @@ def _of_table(path: Path, given: dict[str, Any]) -> RecordSet:
             if names[row.path.name] == 1 or row.channel is None
             else f"{row.path.name}, channel {row.channel}"
         )
-        found += _members(motions, row.name or plain, row.numbers, chosen=row.channel is not None)
-    return _set(found, path.name, f"{path.name}: ", "give distinct names in the column 'name'")
+        result += _members(motions, row.name or plain, row.numbers, chosen=row.channel is not None)
+    return _set(result, path.name, f"{path.name}: ", "give distinct names in the column 'name'")
 
 
 def _set(
-    found: Sequence[_Member], source: str, place: str = "", way_out: str = "name each file once"
+    result: Sequence[_Member], source: str, place: str = "", remedy: str = "name each file once"
 ) -> RecordSet:
     """Return the set, without vertical channels that nobody chose; `RecordError` if two motions have the same name."""
-    kept = [each for each in found if each.chosen or not each.motion.vertical]
-    left_out = [each.label for each in found if each.motion.vertical and not each.chosen]
+    kept = [each for each in result if each.chosen or not each.motion.vertical]
+    left_out = [each.label for each in result if each.motion.vertical and not each.chosen]
     if not kept:
         rule = "no channel is horizontal, and the base of a block moves horizontally"
         raise RecordError(f"{source}: {rule}: {listed(left_out)}")
     label, count = Counter(each.label for each in kept).most_common(1)[0]
     if count > 1:
-        raise RecordError(f"{place}{label} occurs {count} times; {way_out}")
+        raise RecordError(f"{place}{label} occurs {count} times; {remedy}")
     if left_out:
         warn_of_input(f"{source}: {counted(len(left_out), 'vertical channel')} left out: {listed(left_out)}")
     _warn_of_stations(kept, source)
@@ -353,11 +353,11 @@ def _set(
     return records
 
 
-def _warn_of_stations(found: Sequence[_Member], source: str) -> None:
+def _warn_of_stations(result: Sequence[_Member], source: str) -> None:
     """Warn of stations with several horizontal components."""
     of_file: dict[str, _Station] = {}
     stations: dict[_Station, dict[str, str]] = {}
-    for each in found:
+    for each in result:
         if not each.motion.vertical:
             assert each.motion.file is not None
             station = of_file.setdefault(each.motion.file.sha256, each.station)

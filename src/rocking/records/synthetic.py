@@ -29,12 +29,12 @@ class Envelope(NamedTuple):
     def values(self, times: np.ndarray, step: float) -> np.ndarray:
         """Return the factor at equidistant times."""
         ratio = (1 - self.decay * step / 2) / (1 + self.decay * step / 2)
-        found = np.where(times < self.rise, (times / self.rise) * (times / self.rise), 1.0)
+        result = np.where(times < self.rise, (times / self.rise) * (times / self.rise), 1.0)
         factor = 1.0
         for k in np.flatnonzero(times > self.strong):
             factor *= ratio
-            found[k] = factor
-        return found
+            result[k] = factor
+        return result
 
 
 def synthetic_ground_motions(
@@ -125,25 +125,25 @@ def synthetic_ground_motions(
     envelope = Envelope(
         rise, within("strong", strong, rise, 1e5, "s"), within("decay", decay, 0, 1 / step, "1/s")
     )
-    found = _high_pass(_soil(_noise(count, seed, samples), step, *soil), step, *high)
-    found *= envelope.values(step * np.arange(samples), step)[:, None]
-    found *= pga / np.abs(found).max(axis=0)
+    result = _high_pass(_soil(_noise(count, seed, samples), step, *soil), step, *high)
+    result *= envelope.values(step * np.arange(samples), step)[:, None]
+    result *= pga / np.abs(result).max(axis=0)
     return tuple(
         GroundMotion(np.ascontiguousarray(column), step=step, name=f"synthetic {number}")
-        for number, column in enumerate(found.T, 1)
+        for number, column in enumerate(result.T, 1)
     )
 
 
 def _noise(count: int, seed: int, samples: int) -> np.ndarray:
     """Return nearly normal numbers, shape (samples, count), exact sums of integers from a generator per motion."""
-    found = np.empty((samples, count))
+    result = np.empty((samples, count))
     for number, own in enumerate(np.random.SeedSequence(seed).spawn(count)):
         generator = np.random.Generator(np.random.PCG64(own))
         total = np.zeros(samples, dtype=np.int64)
         for _ in range(UNIFORMS):
             total += generator.integers(0, 2**BITS, size=samples, dtype=np.int64)
-        found[:, number] = (total - UNIFORMS * 2 ** (BITS - 1)) / 2.0**BITS
-    return found
+        result[:, number] = (total - UNIFORMS * 2 ** (BITS - 1)) / 2.0**BITS
+    return result
 
 
 def _soil(noise: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:
@@ -165,10 +165,10 @@ def _bilinear(
         (c2 * rate * rate + c1 * rate + c0, 2 * (c0 - c2 * rate * rate), c2 * rate * rate - c1 * rate + c0)
         for c2, c1, c0 in (numerator, (1.0, 2 * damping * frequency, frequency * frequency))
     )
-    found = np.empty_like(given)
+    result = np.empty_like(given)
     first = second = np.zeros(given.shape[1])
     for k, row in enumerate(given):
-        found[k] = (b[0] * row + first) / a[0]
-        first = b[1] * row - a[1] * found[k] + second
-        second = b[2] * row - a[2] * found[k]
-    return found
+        result[k] = (b[0] * row + first) / a[0]
+        first = b[1] * row - a[1] * result[k] + second
+        second = b[2] * row - a[2] * result[k]
+    return result

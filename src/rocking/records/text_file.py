@@ -211,18 +211,18 @@ def cells(line: str) -> list[str]:
 
 def _split(line: str, word: re.Pattern[str]) -> list[str]:
     plain = line.strip().lstrip("#%!/").replace('"', "")
-    found = SEPARATOR.split(plain) if SEPARATOR.search(plain) else word.findall(plain)
-    return [cell.strip() for cell in found]
+    result = SEPARATOR.split(plain) if SEPARATOR.search(plain) else word.findall(plain)
+    return [cell.strip() for cell in result]
 
 
 def given_unit(units: str) -> str:
     """Return the unit that the argument `units` names; TypeError or ValueError for anything else."""
     if not isinstance(units, str):
         raise WrongType("units", CHOICES, units)
-    found = unit_of(units)
-    if found is None:
+    result = unit_of(units)
+    if result is None:
         raise Refusal("units", CHOICES, units)
-    return found
+    return result
 
 
 MAX_BYTES = 300_000_000
@@ -361,13 +361,15 @@ class TextFile:
     def numbers(self, lines: list[int], texts: list[str], what: str) -> np.ndarray:
         """Return finite numbers, each from the text of a number in its line."""
         try:
-            found = np.fromiter(map(float, texts), float, len(texts))
+            result = np.fromiter(map(float, texts), float, len(texts))
         except ValueError:  # Fortran's exponent D
-            found = np.array([self.number(line, text, what) for line, text in zip(lines, texts, strict=True)])
-        if not np.isfinite(found).all():
-            first = int(np.argmin(np.isfinite(found)))
+            result = np.array(
+                [self.number(line, text, what) for line, text in zip(lines, texts, strict=True)]
+            )
+        if not np.isfinite(result).all():
+            first = int(np.argmin(np.isfinite(result)))
             self.number(lines[first], texts[first], what)
-        return found
+        return result
 
     def count(self, line: int, text: str, what: str = "the number of samples", least: int = 1) -> int:
         """Return a number of samples, or of other things."""
@@ -393,10 +395,10 @@ class TextFile:
 
     def unit(self, line: int, text: str) -> str:
         """Return a unit of acceleration."""
-        found = unit_of(text)
-        if found is None:
+        result = unit_of(text)
+        if result is None:
             raise self.error(line, f"a unit of acceleration expected; got {shown(text.strip())}")
-        return found
+        return result
 
     def peak(self, line: int, text: str, unit: str) -> Peak:
         """Return a peak acceleration that the header prints."""
@@ -411,37 +413,37 @@ class TextFile:
 
         Numbers in that line are an error, except with `more`.
         """
-        found: list[float] = []
+        result: list[float] = []
         index = first
-        while len(found) < count:
-            line = self._sample_line(index, len(found), count)
-            wanted = min(per_line, count - len(found))
+        while len(result) < count:
+            line = self._sample_line(index, len(result), count)
+            wanted = min(per_line, count - len(result))
             if line[wanted * width :].strip():
                 raise self.error(index, self._too_many(count, wanted))
             if len(line) <= (wanted - 1) * width:
-                before = f"{len(found):,} of {count:,} were read before it"
+                before = f"{len(result):,} of {count:,} were read before it"
                 raise self.error(index, f"the line ends before its {counted(wanted, 'sample')}; {before}")
             parts = [line[k * width : (k + 1) * width] for k in range(wanted)]
-            found += [self.number(index, part, "a sample") for part in parts]
+            result += [self.number(index, part, "a sample") for part in parts]
             index += 1
         if not more:
             self.ended(index, count)
-        return np.array(found), index
+        return np.array(result), index
 
     def separated(self, first: int, count: int) -> tuple[np.ndarray, int]:
         """Read numbers that blanks, commas or signs separate, and return them with the line after the last."""
-        found: list[float] = []
+        result: list[float] = []
         index = first
-        while len(found) < count:
-            line = self._sample_line(index, len(found), count)
+        while len(result) < count:
+            line = self._sample_line(index, len(result), count)
             if SEPARATE.sub("", line).strip(" \t,"):
                 raise self.error(index, f"numbers expected; got {shown(line.strip())}")
-            found += [self.number(index, part, "a sample") for part in SEPARATE.findall(line)]
+            result += [self.number(index, part, "a sample") for part in SEPARATE.findall(line)]
             index += 1
-        if len(found) > count:
+        if len(result) > count:
             raise self.error(index - 1, self._too_many(count, count))
         self.ended(index, count)
-        return np.array(found), index
+        return np.array(result), index
 
     def _sample_line(self, index: int, read: int, count: int) -> str:
         if index >= len(self.lines):

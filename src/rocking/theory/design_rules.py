@@ -227,12 +227,12 @@ def contact_restitution(critical_angle: Any, fraction: Any) -> Any:
     angle = between("critical_angle", critical_angle, 0.0, math.pi / 2)
     angle, k = together(critical_angle=angle, fraction=between("fraction", fraction, 0.0, 1.0))
     square = np.sin(angle) ** 2
-    found = np.asarray((4.0 - 3.0 * (1.0 + k) * square) / (4.0 - 3.0 * (1.0 - k) * square))
-    if (found < 0.0).any():
-        first = float(np.broadcast_to(angle, found.shape)[found < 0.0].flat[0])
+    result = np.asarray((4.0 - 3.0 * (1.0 + k) * square) / (4.0 - 3.0 * (1.0 - k) * square))
+    if (result < 0.0).any():
+        first = float(np.broadcast_to(angle, result.shape)[result < 0.0].flat[0])
         allowed = "give a restitution that is not negative"
         raise Refusal("critical_angle", allowed, first, "the block is too squat to rock on")
-    return plain(found)
+    return plain(result)
 
 
 MAX_MASS_RATIO = 1e6

@@ -179,8 +179,8 @@ def one_sine_impact_amplitudes(duration: Any, restitution: Any) -> tuple[Any, An
     """
     rate = math.tau / between("duration", duration, *IMPACT_DURATIONS)
     rate, e = np.broadcast_arrays(*together(duration=rate, restitution=restitutions(restitution)))
-    found = np.array([_range(*pair) for pair in zip(rate.ravel().tolist(), e.ravel().tolist(), strict=True)])
-    low, high = found.reshape(*rate.shape, 2)[..., 0], found.reshape(*rate.shape, 2)[..., 1]
+    result = np.array([_range(*pair) for pair in zip(rate.ravel().tolist(), e.ravel().tolist(), strict=True)])
+    low, high = result.reshape(*rate.shape, 2)[..., 0], result.reshape(*rate.shape, 2)[..., 1]
     return plain(low), plain(high)
 
 
