@@ -124,7 +124,7 @@ class Text(str):
 
 
 NO_VALUE = Text()
-NAME = re.compile(r"{([a-z_]+)}")
+NAME = re.compile(r"{([a-z_][a-z_0-9]*)}")
 """Name of an argument in a text."""
 
 
