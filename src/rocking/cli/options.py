@@ -58,12 +58,11 @@ def refusals(names: Mapping[str, str] | None = None) -> Iterator[None]:
 
 def message(error: Exception, names: Mapping[str, str]) -> str:
     """Return the message of an error with the names of options and the words of the command line."""
-    from rocking.cli.commands import COMMANDS
     from rocking.model.validation import Refusal
 
     if isinstance(error, Refusal):
-        parameters = (each for command in COMMANDS for each in (*command.options, *command.outputs))
-        error = error.of({each.name: label(each) for each in parameters} | dict(names))
+        parameters = click.get_current_context().command.params
+        error = error.of({str(each.name): label(each) for each in parameters} | dict(names))
     return reworded(str(error))
 
 
