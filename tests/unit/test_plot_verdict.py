@@ -15,7 +15,6 @@ from PIL import Image
 import rocking as rk
 from rocking.plot.figures import picture
 from rocking.plot.style import COLOURS
-from rocking.plot.verdicts import untitled
 
 
 def system(amplitude, period, restitution, phase=0.0, braces=None):
@@ -141,8 +140,10 @@ def test_notebook_shows_the_picture_over_the_sentence():
     assert image.format == "PNG"
     assert np.asarray(image.convert("L")).std() > 10
     assert "overturning is certain from τ = 10.3092, after 4 impacts" in html
-    assert base64.b64decode(encoded) == picture(lambda: untitled(verdict))
-    assert untitled(verdict).get_suptitle() == ""  # the sentence is below the picture, and not in it, too
+    assert base64.b64decode(encoded) == picture(lambda: rk.plot.verdict(verdict, title=False))
+    assert (
+        rk.plot.verdict(verdict, title=False).get_suptitle() == ""
+    )  # the sentence is below the picture, and not in it, too
     assert rk.plot.verdict(verdict).get_suptitle().startswith("overturn")
 
 

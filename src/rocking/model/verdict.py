@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from enum import IntEnum, StrEnum
-from importlib import import_module
 from typing import Any
 
 from attrs import field, frozen
@@ -301,7 +300,7 @@ class Verdict(Result):
 
     def _figure(self) -> Any:
         """Return the figure without the sentence, which a notebook shows below it."""
-        return import_module("rocking.plot.verdicts").untitled(self)
+        return self.plot(title=False)
 
     def __str__(self) -> str:
         return f"{self.kind}: {self.evidence}"

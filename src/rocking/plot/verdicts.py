@@ -46,7 +46,7 @@ LAST = 200
 OTHERWISE = "the run shown ends differently"
 
 
-def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
+def verdict(verdict: Verdict, block: Block | None = None, *, title: bool = True) -> Figure:
     """Plot the last cycles of a response, its phase portrait and its section, below the text of its verdict.
 
     Parameters
@@ -55,6 +55,8 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
         Result of `classify`.
     block : Block, optional
         Block for SI axes. Default: normalised axes.
+    title : bool
+        Whether the text of the verdict stands above. A notebook shows it below the figure. Default: True.
 
     Returns
     -------
@@ -63,7 +65,7 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
     Raises
     ------
     TypeError
-        If `verdict` is not a Verdict, or `block` is not a Block.
+        If `verdict` is not a Verdict, `block` is not a Block, or `title` is not a bool.
 
     See Also
     --------
@@ -87,14 +89,16 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
     """
     instance("verdict", verdict, Verdict)
     quantities(block)  # refused before there is a figure
-    figure = untitled(verdict, block)
-    sentence = textwrap.fill(str(verdict), LETTERS)
-    figure.suptitle(sentence, x=3 * BAND, ha="left", fontsize=style.SMALL, color=style.INK)
+    instance("title", title, bool)
+    figure = _figure(verdict, block)
+    if title:
+        sentence = textwrap.fill(str(verdict), LETTERS)
+        figure.suptitle(sentence, x=3 * BAND, ha="left", fontsize=style.SMALL, color=style.INK)
     return figure
 
 
-def untitled(verdict: Verdict, block: Block | None = None) -> Figure:
-    """Return the figure of `verdict` without the text of the verdict, which a notebook writes below it."""
+def _figure(verdict: Verdict, block: Block | None) -> Figure:
+    """Return the figure of a verdict without its text."""
     layout = ConstrainedLayoutEngine(rect=(2 * BAND, 0.0, 1.0 - 2 * BAND, 1.0))
     figure = figures.new(style.PAGE, 5.2, layout)
     figure.add_artist(
