@@ -48,9 +48,11 @@ numpydoc_show_class_members = False
 # projects stay words, because such links need the network when the pages are built.
 numpydoc_xref_param_type = True
 numpydoc_xref_ignore = "all"
-numpydoc_xref_aliases = {word: word for word in DEFAULT_LINKS} | {
-    name: f"rocking.{name}" for name in rocking.__all__ if isinstance(getattr(rocking, name), type)
-}
+numpydoc_xref_aliases = (
+    {word: word for word in DEFAULT_LINKS}
+    | {name: f"rocking.{name}" for name in rocking.__all__ if isinstance(getattr(rocking, name), type)}
+    | {name: f"{module}.{name}" for module, names in rocking._MOVED.items() for name in names.split()}
+)
 
 html_theme = "furo"
 html_title = f"rocking {release}"

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from rocking.model.orbit import Stability
 
 
 def system_of(amplitude, period, restitution, phase=0.0, braces=None):
@@ -243,7 +244,7 @@ def undamped(amplitude, period=1.0, n=1):
 
 def test_without_losses_modes_orbits_and_branches_are_neutral_up_to_the_symmetry_breaking():
     mode, orbit = undamped(2.0)
-    assert mode.stability == orbit.stability == rk.Stability.NEUTRAL
+    assert mode.stability == orbit.stability == Stability.NEUTRAL
     assert not mode.stable
     assert not orbit.stable
     branch = rk.continue_orbit(orbit, "amplitude", (1.0, 40.0))

@@ -2,7 +2,6 @@
 
 import inspect
 import re
-import sys
 from pathlib import Path
 
 import pytest
@@ -121,6 +120,7 @@ def test_readme_says_of_what_kind_the_base_motion_is():
 
 PUBLIC = {
     *(f"rocking.{name}" for name in set(rocking.__all__) - {"__version__", "plot", "theory"}),
+    *(f"{module}.{name}" for module, names in rocking._MOVED.items() for name in names.split()),
     *(f"rocking.plot.{name}" for name in rocking.plot.__all__),
     *(f"rocking.theory.{name}" for name in rocking.theory.__all__),
 }
@@ -209,7 +209,7 @@ def test_every_public_function_names_related_functions():
     lone = {"rocking.cite"}
     for name in PUBLIC - lone:
         module, _, short = name.rpartition(".")
-        found = getattr(sys.modules[module], short)
+        found = getattr(import_module(module), short)
         if not inspect.isfunction(found):
             continue
         _, _, related = inspect.getdoc(found).partition("\nSee Also\n--------\n")

@@ -30,6 +30,7 @@ from matplotlib.figure import Figure
 
 import rocking as rk
 from rocking.model.quantity import SYSTEM_QUANTITIES
+from rocking.orbits.saddle_manifolds import manifold_gap
 
 SOURCE = str(Path(rk.__file__).parent)
 SEED = 20_250_801
@@ -92,7 +93,6 @@ USUAL = {
     "impact_section": lambda: {"source": SYSTEM, "cycles": 50},
     "incremental_dynamic_analysis": lambda: SURVEY | {"levels": [0.5, 2.0]},
     "lyapunov": lambda: {"system": CHAOTIC, "cycles": 1_000, "transient": 10},
-    "manifold_gap": lambda: {"system": SADDLE},
     "orbit_diagram": lambda: {"system": SYSTEM, "parameter": "amplitude", "values": [7.0, 7.1], "transient": 5, "cycles": 5},
     "orbit_manifolds": lambda: {"orbit": saddle(), "length": 0.5},
     "overturning_amplitude": lambda: {
@@ -182,6 +182,7 @@ def named(value):
 def targets():
     """All calls: name, callable, and the arguments of a cheap call."""
     found = {name: (getattr(rk, name), usual()) for name, usual in USUAL.items()}
+    found["manifold_gap"] = manifold_gap, {"system": SADDLE}
     for name in rk.theory.__all__:
         function = getattr(rk.theory, name)
         required = [

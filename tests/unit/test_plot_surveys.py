@@ -8,6 +8,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import rocking as rk
+from rocking.model.record_results import OverturningSet
 from rocking.model.text import percent
 from rocking.plot.state_surveys import colours
 
@@ -181,7 +182,7 @@ def test_bands_are_the_intervals_of_each_record(levels_that_overturn):
 def test_undecided_switches_are_marked(levels_that_overturn):
     data = levels_that_overturn.dataset.copy(deep=True)
     data.switch_certified.values[:2] = False
-    doubtful = rk.OverturningSet(data, levels_that_overturn.records, levels_that_overturn.block)
+    doubtful = OverturningSet(data, levels_that_overturn.records, levels_that_overturn.block)
     marks = drawn(rk.plot.overturning_set(doubtful), "undecided")
     assert marks.get_xdata().tolist() == doubtful.switches["level"][:2].tolist()
     assert not any(

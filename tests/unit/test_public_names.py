@@ -5,6 +5,7 @@ import json
 import pickle
 import subprocess
 import sys
+from importlib import import_module
 from importlib.metadata import version
 
 import pytest
@@ -83,6 +84,17 @@ def test_every_name_of_the_theory_is_there_and_says_what_it_is(name):
 def test_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match="^module 'rocking' has no attribute 'simulatee'$"):
         rocking.simulatee  # noqa: B018
+
+
+MOVED = [(name, module) for module, names in rocking._MOVED.items() for name in names.split()]
+
+
+@pytest.mark.parametrize(("name", "module"), MOVED, ids=[name for name, _ in MOVED])
+def test_name_of_an_earlier_version_is_refused_with_its_place(name, module):
+    message = f"^rocking.{name} is {module}.{name} since version 0.2$"
+    with pytest.raises(AttributeError, match=message):
+        getattr(rocking, name)
+    assert hasattr(import_module(module), name)
 
 
 def test_version_is_that_of_the_installed_package():

@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 
 import rocking as rk
 from rocking.response import correlation_dimension
+from rocking.response.correlation_dimension import CorrelationDimension
 
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 WIDEST = 0.12
@@ -185,7 +186,7 @@ def test_points_that_do_not_scale_are_refused_with_what_was_found():
         rk.TooShort, match="^10000 points do not scale over a decade of r; .* of the section, between"
     ) as caught:
         rk.correlation_dimension(points)
-    assert isinstance(caught.value.estimate, rk.CorrelationDimension)
+    assert isinstance(caught.value.estimate, CorrelationDimension)
 
 
 BAD = {

@@ -5,6 +5,7 @@ import pytest
 
 import rocking as rk
 from rocking.model.share import Share, wilson
+from rocking.model.survey_results import UncertaintyExponent
 from rocking.survey.uncertainty_exponent import distances, exponent, perturbed_triples
 
 Z = 1.959963984540054
@@ -116,7 +117,7 @@ def test_a_cantor_boundary_has_the_exponent_of_its_dimension():
     ],
 )
 def test_only_a_narrow_interval_says_what_a_boundary_is(interval, smooth, fractal, meaning):
-    found = rk.UncertaintyExponent(sum(interval) / 2, *interval, (), (), 1.0)
+    found = UncertaintyExponent(sum(interval) / 2, *interval, (), (), 1.0)
     assert (found.smooth, found.fractal, found.meaning) == (smooth, fractal, meaning)
 
 

@@ -6,7 +6,7 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 
-VERSION = __version__ = "0.1.0"
+VERSION = __version__ = "0.2.0"
 
 
 EXTRAS = {

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from pkgutil import get_data
 from typing import Any
@@ -21,14 +21,19 @@ def imported(package: str) -> list[tuple[str, ast.alias]]:
     return [(node.module or "", each) for node in imports for each in node.names]
 
 
-def lazy(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """Return `__getattr__`, `__dir__` and `__all__` of a package."""
+def lazy(
+    package: str, moved: Mapping[str, str] | None = None
+) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+    """Return `__getattr__`, `__dir__` and `__all__` of a package; `moved` holds the names that have left it, by their module."""
     imports = imported(package)
     table = {each.asname or each.name: (module, each.name) for module, each in imports}
     names = sorted(each.asname for _, each in imports if each.asname)
 
     def get(name: str) -> Any:
         if name not in table:
+            for module, names_there in (moved or {}).items():
+                if name in names_there.split():
+                    raise AttributeError(f"{package}.{name} is {module}.{name} since version 0.2")
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         namespace = vars(sys.modules[package])
         module, there = table[name]

@@ -41,7 +41,7 @@ class LognormalFit:
     Examples
     --------
     >>> import rocking as rk
-    >>> fit = rk.LognormalFit(1.0, 5.0, 4.4, 5.8, 0.3, 0.2, 0.4, 0.03)
+    >>> fit = LognormalFit(1.0, 5.0, 4.4, 5.8, 0.3, 0.2, 0.4, 0.03)
     >>> print(fit)
     median 5 (4.4–5.8), dispersion 0.3 (0.2–0.4), largest misfit 3.0 %
     """

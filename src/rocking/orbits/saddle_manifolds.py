@@ -299,7 +299,7 @@ def saddle_manifolds(
 
     See Also
     --------
-    manifold_gap : Gap between two manifolds.
+    rocking.orbits.saddle_manifolds.manifold_gap : Gap between two manifolds.
     tangency_amplitude : Amplitude of the first tangency.
     rocking.plot.manifolds : Plot the manifolds.
 
@@ -394,13 +394,13 @@ def manifold_gap(system: System) -> float:
 
     See Also
     --------
-    tangency_amplitude : Amplitude at which the gap is zero.
+    rocking.tangency_amplitude : Amplitude at which the gap is zero.
     rocking.theory.manifold_gap : The gap in closed form.
 
     Examples
     --------
     >>> import rocking as rk
-    >>> [round(rk.manifold_gap(rk.System(rk.Harmonic(amplitude=a, period=1.0), restitution=0.8)), 6) for a in (3.0, 4.0)]
+    >>> [round(manifold_gap(rk.System(rk.Harmonic(amplitude=a, period=1.0), restitution=0.8)), 6) for a in (3.0, 4.0)]
     [-0.037302, 0.016931]
     """
     check(system)
@@ -481,7 +481,7 @@ def tangency_amplitude(system: System) -> float:
 
     See Also
     --------
-    manifold_gap : The gap that is zero there.
+    rocking.orbits.saddle_manifolds.manifold_gap : The gap that is zero there.
     rocking.theory.heteroclinic_amplitude : The amplitude in closed form.
 
     Examples

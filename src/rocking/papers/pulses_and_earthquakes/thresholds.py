@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 import rocking as rk
+from rocking.motion.motion import Motion
 
 GRAVITY = 9.80665
 RELATIVE = 1e-13
@@ -28,7 +29,7 @@ def system(
 
 def run(
     kind: str, amplitude: float, frequency: float, restitution: float, angle: float | None = None
-) -> rk.Motion:
+) -> Motion:
     """Return the motion from rest under a pulse."""
     return rk.simulate(system(kind, amplitude, frequency, restitution, angle), record="none")
 

@@ -11,8 +11,11 @@ import numpy as np
 import xarray as xr
 
 import rocking as rk
+from rocking.model.survey_results import ChaosShare, RepeatabilityMap
 from rocking.papers.report.workers import shared
 from rocking.papers.yim_lin_1991.cases import QUASI_PERIODIC
+from rocking.response.rotation_number import RotationNumber
+from rocking.response.spectrum import SpectralDensity
 
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
 RESTITUTIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.925, 0.95, 0.97, 0.99, 1.0)
@@ -50,13 +53,13 @@ def braced() -> xr.Dataset:
 
 
 @shared
-def chaos() -> rk.ChaosShare:
+def chaos() -> ChaosShare:
     """Estimate the fraction of chaotic responses at random periods and amplitudes, over e."""
     return rk.chaos_share(restitution=np.array(RESTITUTIONS), samples=SAMPLES)
 
 
 @shared
-def braced_chaos() -> rk.ChaosShare:
+def braced_chaos() -> ChaosShare:
     """Estimate the fraction of chaotic responses between perfectly elastic braces at the critical angle, over e."""
     return rk.chaos_share(
         restitution=np.array(BRACED_RESTITUTIONS), samples=BRACED_SAMPLES, brace_angle=1.0, max_cycles=100_000
@@ -73,7 +76,7 @@ def starts(amplitude: float, period: float, restitution: float) -> xr.Dataset:
 
 
 @shared
-def repeatable(restitution: float) -> rk.RepeatabilityMap:
+def repeatable(restitution: float) -> RepeatabilityMap:
     """Compute a map of repeatability for inputs that vary by 1 %."""
     return rk.repeatability_map(**axes(REPEATED), restitution=restitution, samples=8, max_cycles=10_000)
 
@@ -97,13 +100,13 @@ def responses_uncertain(brace_angle: float | None = None) -> rk.Share:
 
 
 @shared
-def torus_spectrum() -> rk.SpectralDensity:
+def torus_spectrum() -> SpectralDensity:
     """Compute the power spectral density of figure 8b."""
     return rk.spectral_density(rk.simulate(QUASI_PERIODIC.system, cycles=8_192))
 
 
 @shared
-def torus_turns() -> rk.RotationNumber:
+def torus_turns() -> RotationNumber:
     """Compute the rotation number of the quasi-periodic response."""
     return rk.rotation_number(QUASI_PERIODIC.system, cycles=20_000)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from attrs import frozen
 
 import rocking as rk
+from rocking.motion.motion import Motion
 
 REST = rk.State()
 
@@ -18,7 +19,7 @@ class Case:
     shown: tuple[int, int]
     start: rk.State = REST
 
-    def motion(self) -> rk.Motion:
+    def motion(self) -> Motion:
         """Simulate the motion up to the last cycle shown."""
         return rk.simulate(self.system, self.start, cycles=self.shown[1])
 

@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rocking as rk
+from rocking.motion.motion import Motion
 from rocking.papers.yim_lin_1991.cases import Case
 
 # Half the length of an arrow, in forcing periods.
@@ -36,7 +37,7 @@ def draw_pair(
     return figure
 
 
-def draw_arrow(ax: Axes, motion: rk.Motion, cycle: float) -> None:
+def draw_arrow(ax: Axes, motion: Motion, cycle: float) -> None:
     """Draw an arrow in the direction of motion on a phase portrait, at a number of cycles from the start."""
     period = motion.system.harmonic.period
     tail, head = (motion.at((cycle + step) * period) for step in (-SHORT, SHORT))

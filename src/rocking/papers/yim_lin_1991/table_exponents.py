@@ -20,6 +20,7 @@ from rocking.model.text import plus_minus
 from rocking.papers.report.table_files import write_table
 from rocking.papers.report.workers import shared
 from rocking.papers.yim_lin_1991.cases import BRACED, CHAOTIC, PERIODIC, QUASI_PERIODIC
+from rocking.response.correlation_dimension import CorrelationDimension
 
 # Number and length of runs as in 1991, and their range of phases, which no experiment can resolve.
 SEA_STARTS, SEA_CYCLES, SEA_PHASES = 100, 2_000, 1e-7
@@ -48,7 +49,7 @@ class Row:
 class Dimension:
     """Correlation dimension of a section, and whether the section scales."""
 
-    found: rk.CorrelationDimension
+    found: CorrelationDimension
     scales: bool
 
 

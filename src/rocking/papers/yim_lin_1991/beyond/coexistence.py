@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from scipy.ndimage import distance_transform_edt
 
 import rocking as rk
+from rocking.model.survey_results import BasinMap
 from rocking.model.text import percent
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925)
@@ -44,7 +45,7 @@ def draw() -> Figure:
     return figure
 
 
-def _label(ax: Axes, found: rk.BasinMap) -> None:
+def _label(ax: Axes, found: BasinMap) -> None:
     """Write name and area fraction of each attractor at the right, with a line to the innermost point of its basin."""
     places = found.dataset.attractor.transpose("velocity", "angle")
     anchors = []

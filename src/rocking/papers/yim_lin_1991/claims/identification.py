@@ -12,13 +12,15 @@ from rocking.papers.report.claim import Chapter, Finding, small
 from rocking.papers.report.workers import shared
 from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents
 from rocking.papers.yim_lin_1991.cases import CHAOTIC, PERIODIC, QUASI_PERIODIC
+from rocking.response.correlation_dimension import CorrelationDimension
+from rocking.response.lyapunov import LyapunovSpectrum
 
 CHAPTER = Chapter("Identification of responses")
 SUBHARMONIC = PERIODIC[1].system
 
 
 @shared
-def _dimension(system: rk.System, points: int, transient: int = 0) -> rk.CorrelationDimension:
+def _dimension(system: rk.System, points: int, transient: int = 0) -> CorrelationDimension:
     motion = rk.simulate(system, cycles=transient + points - 1, record="section")
     try:
         return rk.correlation_dimension(motion.section()[transient:])
@@ -27,7 +29,7 @@ def _dimension(system: rk.System, points: int, transient: int = 0) -> rk.Correla
 
 
 @shared
-def _spectrum(system: rk.System, cycles: int) -> rk.LyapunovSpectrum:
+def _spectrum(system: rk.System, cycles: int) -> LyapunovSpectrum:
     try:
         return rk.lyapunov(system, cycles=cycles)
     except rk.TooShort as short:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
+from rocking.model.orbit import Mode
 from rocking.papers.report.claim import Chapter, Finding, small
 from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.cases import PERIODIC
@@ -14,7 +15,7 @@ MODES = (1, 3, 5, 7)
 DRAWN = 2_000
 
 
-def _drawn() -> list[list[rk.Mode]]:
+def _drawn() -> list[list[Mode]]:
     """Return the (1, n) modes of random systems, e from 0.2 to 1."""
     rng = np.random.default_rng(1991)
     low, high = cached_surveys.PERIODS
@@ -90,7 +91,7 @@ def lower_one() -> Finding:
     )
 
 
-def _half_cycle(velocity: float, phase: float, mode: rk.Mode) -> tuple[float, float]:
+def _half_cycle(velocity: float, phase: float, mode: Mode) -> tuple[float, float]:
     """Return the state after the next impact, mirrored, given speed and phase after an impact.
 
     Returns
@@ -106,7 +107,7 @@ def _half_cycle(velocity: float, phase: float, mode: rk.Mode) -> tuple[float, fl
     return phase + frequency * hit["time"] - np.pi * mode.n, abs(hit["after"])
 
 
-def _matrix(mode: rk.Mode) -> np.ndarray:
+def _matrix(mode: Mode) -> np.ndarray:
     """Return the matrix of Eq. (9), in (phase, speed), by central differences of simulations."""
     step, columns = 1e-6, []
     for shift in ((step, 0.0), (0.0, step)):
