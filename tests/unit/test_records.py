@@ -356,6 +356,7 @@ def test_bytes_in_memory_are_the_file_of_that_name(make):
 def test_errors_of_bytes_in_memory_give_their_name(make):
     for data, message in (
         (b"  \n", "town a: the file is empty"),
+        (b"\xef\xbb\xbf", "town a: the file is empty"),
         (b"1\n2\n", "town\na: the file does not state"),
     ):
         with pytest.raises(rk.RecordError, match=f"^{message}"):

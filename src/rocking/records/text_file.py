@@ -306,6 +306,8 @@ class TextFile:
             text = data.decode("utf-8-sig")
         except UnicodeDecodeError:
             text = data.decode("latin-1")
+        if not text.strip():
+            raise RecordError(f"{self.name}: the file is empty")
         self.lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
         for index, line in enumerate(self.lines):
             if len(line) > MAX_LINE:
