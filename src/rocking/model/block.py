@@ -10,7 +10,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model.block_formulas import GRAVITY, frequency_in_hertz, frequency_parameter, housner_restitution
-from rocking.model.forcing import BaseMotion, Harmonic
+from rocking.model.forcing import BaseMotion, Forcing, Harmonic
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, RESTITUTION, SIZES
 from rocking.model.system import Braces, System, critical_angle_for
@@ -198,7 +198,7 @@ class Block:
         Returns
         -------
         System
-            System with the block's coefficient of restitution.
+            System with the block's coefficient of restitution. It knows the block, so that its results are in SI units by default.
 
         Raises
         ------
@@ -226,15 +226,18 @@ class Block:
         }
         angle = critical_angle_for(model, self.critical_angle, self.width)
         if base is None:
-            return System(self._harmonic(**harmonic, phase=phase), self.restitution, braces, angle)
+            return self._made(self._harmonic(**harmonic, phase=phase), braces, angle)
         given = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
         if given:
             raise WrongType(given[0], "be omitted with {base}")
         if isinstance(base, GroundMotion) and base.vertical:
             warn_of_value(vertical_sentence([base.component]))
         scales = self.acceleration(1.0), self.frequency_parameter
-        forcing = instance("base", base, BaseMotion).normalised(*scales)
-        return System(forcing, self.restitution, braces, angle)
+        return self._made(instance("base", base, BaseMotion).normalised(*scales), braces, angle)
+
+    def _made(self, forcing: Forcing, braces: Braces | None, critical_angle: float | None) -> System:
+        """Return the system of the block, which it knows."""
+        return System(forcing, self.restitution, braces, critical_angle, block=self)
 
     def _harmonic(
         self,

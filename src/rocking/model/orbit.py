@@ -6,15 +6,19 @@ import math
 from collections.abc import Callable
 from enum import StrEnum
 from operator import itemgetter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from attrs import evolve, field, frozen
 
 from rocking.model.forcing import Harmonic
 from rocking.model.proof import Proof
 from rocking.model.quantity import PHASE
+from rocking.model.result import Result, described
 from rocking.model.system import NO_BRACES, State, System, quantities
 from rocking.model.text import counted
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @frozen
@@ -142,8 +146,54 @@ class Mode:
 SAME_INSTANT = 1e-12
 
 
+ORBIT_TEXTS: dict[str, tuple[str, str, Any]] = {
+    "orbit_period": ("forcing cycles per response period", "1", int),
+    "symmetric": ("whether the orbit is its own mirror image", "", bool),
+    "impacts_per_period": ("impacts per period; -1 if infinitely many", "1", int),
+    "brace_hits_per_period": ("brace impacts per period; -1 if infinitely many", "1", int),
+    "stability": ("stability", "", "U8"),
+    "multiplier_1_real": ("Floquet multiplier 1, real part", "1", float),
+    "multiplier_1_imag": ("Floquet multiplier 1, imaginary part", "1", float),
+    "multiplier_2_real": ("Floquet multiplier 2, real part", "1", float),
+    "multiplier_2_imag": ("Floquet multiplier 2, imaginary part", "1", float),
+    "start_angle": ("angle at time 0", "1", float),
+    "start_velocity": ("angular velocity at time 0", "1", float),
+    "section_phase": ("forcing phase of the section", "rad", float),
+    "section_angle": ("angle at the section", "1", float),
+    "section_velocity": ("angular velocity at the section", "1", float),
+    "residual": ("distance between the states at the section and one period later", "1", float),
+}
+"""Description, unit and type of each fact on an orbit in datasets."""
+
+
+def facts_of(orbit: Orbit) -> dict[str, Any]:
+    """Return the facts on an orbit by name; None stands for infinitely many impacts."""
+    larger, smaller = orbit.multipliers
+    return {
+        "orbit_period": orbit.period,
+        "symmetric": orbit.symmetric,
+        "impacts_per_period": orbit.impacts,
+        "brace_hits_per_period": orbit.brace_hits,
+        "stability": str(orbit.stability),
+        "multiplier_1_real": larger.real,
+        "multiplier_1_imag": larger.imag,
+        "multiplier_2_real": smaller.real,
+        "multiplier_2_imag": smaller.imag,
+        "section_phase": orbit.phase,
+        "section_angle": orbit.state.angle,
+        "section_velocity": orbit.state.velocity,
+        "residual": orbit.residual,
+    }
+
+
+def start_of(orbit: Orbit) -> dict[str, float]:
+    """Return the state of an orbit at τ = 0 by name."""
+    start = orbit.start
+    return {"start_angle": start.angle, "start_velocity": start.velocity}
+
+
 @frozen
-class Orbit:
+class Orbit(Result):
     """Periodic orbit; found by `find_orbit`, `find_orbits`, `classify` and along a `Branch`.
 
     `orbit.motion()` simulates it, as does `simulate(orbit.system, orbit.start)`.
@@ -192,6 +242,15 @@ class Orbit:
     _events: tuple[OrbitEvent, ...] = field(default=(), repr=False, eq=False)
     _grazes: bool = field(default=False, repr=False, eq=False)
     proof: Proof | None = field(default=None, repr=False, eq=False)
+
+    def _data(self) -> xr.Dataset:
+        import xarray as xr
+
+        proof = (
+            {} if self.proof is None else {f"proof_{name}": each for name, each in self.proof.facts.items()}
+        )
+        facts = quantities(self.system) | facts_of(self) | start_of(self) | proof
+        return xr.Dataset(attrs=described("Periodic orbit") | facts)
 
     @property
     def start(self) -> State:

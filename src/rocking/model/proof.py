@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING, Any
 
-from attrs import field, frozen
+import numpy as np
+from attrs import field, fields, frozen
 
-from rocking.model.share import Share
-from rocking.model.system import System
+from rocking.model.result import Result, described
+from rocking.model.share import Share, share_variables
+from rocking.model.system import System, quantities
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Disc = tuple[complex, float]
 
 
 @frozen
-class Proof:
+class Proof(Result):
     """Proof of a periodic orbit in ball arithmetic, or the reason why there is none; returned by `prove`.
 
     The proof holds for the exact system whose parameters are the numbers given. If the system was given by its period T, the
@@ -77,12 +83,38 @@ class Proof:
     starts: bool | None = None
     bits: int = 0
 
+    @property
+    def facts(self) -> dict[str, Any]:
+        """Facts that are numbers, words or flags, by name; of a multiplier the middle and the radius."""
+        left_out = ("system", "phases", "multipliers")
+        found = {each.name: getattr(self, each.name) for each in fields(Proof) if each.name not in left_out}
+        for number, (middle, radius) in enumerate(self.multipliers or (), 1):
+            found[f"multiplier_{number}_real"] = middle.real
+            found[f"multiplier_{number}_imag"] = middle.imag
+            found[f"multiplier_{number}_radius"] = radius
+        return found
+
+    def _data(self) -> xr.Dataset:
+        import xarray as xr
+
+        attributes = described("Proof of a periodic orbit") | quantities(self.system) | self.facts
+        names = {
+            "phase": "middle of the forcing phase of the event",
+            "phase_radius": "radius of the forcing phase",
+        }
+        values = np.array(self.phases, float).reshape(-1, 2).T
+        variables = {
+            name: ("event", column, {"long_name": text, "units": "rad"})
+            for (name, text), column in zip(names.items(), values, strict=True)
+        }
+        return xr.Dataset(variables, attrs=attributes)
+
     def __str__(self) -> str:
         return f"{'proved' if self.proved else 'not proved'}: {self.claim}"
 
 
 @frozen
-class Horseshoe:
+class Horseshoe(Result):
     """Proof of a chaotic invariant set, or the reason why there is none; returned by `horseshoe`.
 
     The set is a Smale horseshoe: infinitely many unstable orbits, and motions that follow any sequence of two patterns. It does not
@@ -117,12 +149,23 @@ class Horseshoe:
     cycles: tuple[int, ...] = ()
     entropy: float = math.nan
 
+    def _data(self) -> xr.Dataset:
+        import xarray as xr
+
+        attributes = described("Horseshoe") | quantities(self.system)
+        for each in fields(Horseshoe):
+            if each.name not in ("system", "cycles"):
+                attributes[each.name] = getattr(self, each.name)
+        for number, cycles in enumerate(self.cycles, 1):
+            attributes[f"pattern_{number}_cycles"] = cycles
+        return xr.Dataset(attrs=attributes)
+
     def __str__(self) -> str:
         return f"{'proved' if self.proved else 'not proved'}: {self.claim}"
 
 
 @frozen
-class ProvedShare:
+class ProvedShare(Result):
     """Fractions of the periodic responses of a map that were proved; returned by `proved_share`.
 
     Attributes
@@ -145,6 +188,25 @@ class ProvedShare:
     orbits: Share
     starts: Share
     reasons: dict[str, int] = field(hash=False)
+
+    def _data(self) -> xr.Dataset:
+        import xarray as xr
+
+        names = "proved", ["orbits", "starts"], {"long_name": "what is proved"}
+        reasons = {
+            "reason": (
+                "reason",
+                np.array(list(self.reasons), str),
+                {"long_name": "reason why there is no proof"},
+            ),
+            "reason_count": (
+                "reason",
+                list(self.reasons.values()),
+                {"long_name": "number of responses", "units": "1"},
+            ),
+        }
+        shares = share_variables("proved", (self.orbits, self.starts))
+        return xr.Dataset(shares | reasons, {"proved": names}, described("Proved periodic responses"))
 
     def __str__(self) -> str:
         text = f"{self.orbits.of} periodic responses; orbits proved: {self.orbits}; initial states proved: {self.starts}"

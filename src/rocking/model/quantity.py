@@ -291,29 +291,124 @@ RUN_QUANTITIES = {each.name: each for each in (SIZE, SLENDERNESS, RESTITUTION, A
 
 
 def _like(si: SI, name: str) -> SI:
-    """Return an SI counterpart of another quantity with the same unit."""
-    return si._replace(name=name, key=si.key.replace(si.name, name, 1), label="")
+    """Return the SI counterpart of a quantity of this name that has the unit of another one."""
+    named = name.replace("amplitude", si.name) if "amplitude" in name else name
+    named = f"{name}_{si.name}" if si is ACCELERATION and named == name else named
+    return si._replace(name=named, key=si.key.replace(si.name, named, 1), label="")
 
 
+def _turn(block: Any, acceleration: Any) -> Any:
+    return acceleration * (block.radians_per_second(1.0) * block.frequency_parameter)
+
+
+def _cycles_per_second(block: Any, frequency: Any) -> Any:
+    return frequency / block.seconds(1.0)
+
+
+def _square_radians(block: Any, variance: Any) -> Any:
+    return variance * block.radians(1.0) ** 2
+
+
+def _density(block: Any, density: Any) -> Any:
+    return density * (block.radians(1.0) ** 2 * block.seconds(1.0))
+
+
+TIME = SECONDS._replace(name="time", key="time_s", of=_seconds)
 PER_SECOND = SI("exponent", "1/s", "exponent_per_s", "s-1", _per_second)
-RESULT_QUANTITIES = {
-    "time": Quantity("time", unit="1/alpha", si=SECONDS._replace(name="time", key="time_s", of=_seconds)),
-    "exponent": Quantity(
-        "exponent", unit="alpha", si=SI("exponent", "1/s", "exponent_per_s", "s-1", _per_second)
+RESULTS: tuple[tuple[str, SI | None, tuple[str, ...]], ...] = (
+    ("1/alpha", TIME, ("time", "event_time", "margin_time", "overturning_time", "duration")),
+    ("alpha", PER_SECOND, ("exponent", "exponent_error", "running_exponent", "running_exponent_error")),
+    (
+        "theta_cr",
+        RADIANS,
+        (
+            *(
+                "peak",
+                "steady_peak",
+                "rest_peak",
+                "rest_steady_peak",
+                "branch_peak",
+                "limit",
+                "line_amplitude",
+            ),
+            *("mean_angle", "mean_angle_error", "angle_low", "angle_high", "angle_range"),
+            *(
+                "start_angle",
+                "basin_start_angle",
+                "final_angle",
+                "event_angle",
+                "orbit_angle",
+                "saddle_angle",
+            ),
+            *("section_angle", "special_section_angle"),
+        ),
     ),
-}
-RESULT_QUANTITIES["exponent_error"] = Quantity(
-    "exponent_error", unit="alpha", si=_like(PER_SECOND, "exponent_error")
+    (
+        "alpha theta_cr",
+        RADIANS_PER_SECOND,
+        (
+            *(
+                "margin",
+                "velocity_low",
+                "velocity_high",
+                "velocity_range",
+                "event_before",
+                "event_after",
+                "event_velocity",
+            ),
+            *(
+                "start_velocity",
+                "basin_start_velocity",
+                "final_velocity",
+                "orbit_velocity",
+                "saddle_velocity",
+            ),
+            *("section_velocity", "special_section_velocity"),
+        ),
+    ),
+    (
+        "alpha^2 theta_cr",
+        SI("acceleration", "rad/s^2", "acceleration_rad_per_s2", "rad s-2", _turn),
+        ("acceleration",),
+    ),
+    (
+        "g theta_cr",
+        ACCELERATION._replace(of=_acceleration),
+        ("base_acceleration",),
+    ),
+    (
+        "g theta_cr",
+        ACCELERATION,
+        (
+            *("resolution", "survived_up_to", "lowest_overturning_amplitude", "amplitude_range"),
+            *("heteroclinic_amplitude", "melnikov_amplitude"),
+        ),
+    ),
+    ("1/alpha", SECONDS, ("period_range",)),
+    ("alpha", HERTZ._replace(of=_cycles_per_second), ("cyclic_frequency", "line_frequency")),
+    ("theta_cr^2", SI("variance", "rad^2", "variance_rad2", "rad2", _square_radians), ("variance",)),
+    (
+        "theta_cr^2/alpha",
+        SI("density", "rad^2/Hz", "density_rad2_per_hz", "rad2 Hz-1", _density),
+        ("density",),
+    ),
+    ("rad", None, ("forcing_phase", "lowest_phase", "section_phase", "special_section_phase", "event_phase")),
+    ("cycles", None, ("response_period", "orbit_period", "transient")),
 )
-for _name in ("peak", "orbit_angle", "mean_angle", "mean_angle_error", "angle_low", "angle_high"):
-    RESULT_QUANTITIES[_name] = Quantity(_name, unit="theta_cr", si=_like(RADIANS, _name))
-for _name in ("orbit_velocity", "margin", "velocity_low", "velocity_high"):
-    RESULT_QUANTITIES[_name] = Quantity(_name, unit="alpha theta_cr", si=_like(RADIANS_PER_SECOND, _name))
-for _name in ("forcing_phase", "lowest_phase"):
-    RESULT_QUANTITIES[_name] = Quantity(_name, unit="rad")
-for _name in ("response_period", "orbit_period", "transient"):
-    RESULT_QUANTITIES[_name] = Quantity(_name, unit="cycles")
+"""Unit, SI counterpart and names of the quantities of results."""
+RESULT_QUANTITIES = {
+    name: Quantity(name, unit=unit, si=si and _like(si, name))
+    for unit, si, names in RESULTS
+    for name in names
+}
 """Quantities of results, as far as they have units in tables."""
+LOWEST = Quantity("lowest", unit="g theta_cr", si=_like(ACCELERATION, "lowest"))
+"""Lowest amplitude that overturns; in other results a level of the intensity of ground motions."""
+for _place in ("special", "end", "accumulation", "grazing", "branch"):
+    for _each in SYSTEM_QUANTITIES.values():
+        for _name in (f"{_place}_{_each.name}", f"{_place}_{_each.name}_error"):
+            _si = _each.si and _like(_each.si, _name)
+            RESULT_QUANTITIES[_name] = Quantity(_name, unit=_each.unit, si=_si)
 
 QUANTITIES = {**SYSTEM_QUANTITIES, **RUN_QUANTITIES, **RESULT_QUANTITIES}
 """All quantities by name."""

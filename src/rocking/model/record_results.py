@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from attrs import field, frozen
+from attrs import field, fields, frozen
 
 from rocking.model.block import Block
 from rocking.model.ground_motion import MAX_FACTOR, GroundMotion
@@ -94,6 +94,21 @@ class LognormalFit:
         return self.described()
 
 
+FIT = {
+    name: {"long_name": text, "units": "1"}
+    for name, text in {
+        "median": "level that half of the rocking runs exceed",
+        "median_low": "lower end of the 95 % interval of the median",
+        "median_high": "upper end of the 95 % interval of the median",
+        "dispersion": "standard deviation of the logarithm of the level",
+        "dispersion_low": "lower end of the 95 % interval of the dispersion",
+        "dispersion_high": "upper end of the 95 % interval of the dispersion",
+        "misfit": "largest distance between a fraction and the fit",
+    }.items()
+} | {"problem": {"long_name": "reason why there is no fit"}}
+"""Attributes of the variables of the fits."""
+
+
 def _with_ends(value: float, low: float, high: float, unit: str = "") -> str:
     upper = "∞" if math.isinf(high) else f"{high:.3g}"
     return f"{value:.3g}{' ' * bool(unit)}{unit} ({low:.3g}–{upper})"
@@ -130,10 +145,21 @@ class Fragility(Result):
     """
 
     PLOT = "fragility"
+    LONG = ("record_scale", "record_sample_scale")
 
     dataset: xr.Dataset = field(repr=False)
     block: Block
     fits: tuple[LognormalFit, ...] = field(repr=False)
+
+    def _data(self) -> xr.Dataset:
+        """Return the dataset with the curves first, and the fits over `limit`."""
+        curves = [name for name, each in self.dataset.data_vars.items() if "limit" in each.dims]
+        columns = {
+            each.name: ("limit", [getattr(fit, each.name) for fit in self.fits], FIT[each.name])
+            for each in fields(LognormalFit)
+            if each.name in FIT
+        }
+        return self.dataset[curves].assign(columns).merge(self.dataset, combine_attrs="override")
 
     def fit(self, limit: float = math.inf) -> LognormalFit:
         """Return the fit of a limit.
@@ -210,6 +236,7 @@ class IncrementalDynamicAnalysis(Result):
     """
 
     PLOT = "incremental_dynamic_analysis"
+    LONG = ("record_scale",)
 
     dataset: xr.Dataset = field(repr=False)
     block: Block
@@ -341,10 +368,19 @@ class OverturningSet(Result):
     """
 
     PLOT = "overturning_set"
+    LONG = ("record_scale",)
 
     dataset: xr.Dataset = field(repr=False)
     records: RecordSet
     block: Block
+
+    def _data(self) -> xr.Dataset:
+        """Return the dataset with the switches first, and the names of their records."""
+        rows = self.dataset["switch_record"].values
+        names = "switch", np.array(self.records.names)[rows], {"long_name": "record of the switch"}
+        switches = [name for name, each in self.dataset.data_vars.items() if "switch" in each.dims]
+        first = self.dataset[switches].assign(switch_name=names)
+        return first.merge(self.dataset, combine_attrs="override")
 
     @property
     def measure(self) -> Intensity:
@@ -492,7 +528,7 @@ class OverturningSet(Result):
 
 
 @frozen(eq=False)
-class Sensitivity:
+class Sensitivity(Result):
     """Fraction of verdicts that small changes reverse; returned by `sensitivity`.
 
     Attributes
@@ -515,6 +551,8 @@ class Sensitivity:
     >>> found.dataset.share.dims, int(found.dataset.runs[0])
     (('change',), 10)
     """
+
+    LONG = ("record_scale", "record_scale_change")
 
     dataset: xr.Dataset = field(repr=False)
     block: Block

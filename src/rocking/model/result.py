@@ -1,19 +1,28 @@
-"""What all results share: read-only arrays, attributes of their datasets, and pictures in notebooks."""
+"""What all results share: their data as a dataset, tables, JSON and figures; read-only arrays; attributes of datasets."""
 
 from __future__ import annotations
 
 import html as markup
 from base64 import b64encode
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from importlib import import_module
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import attrs
 import numpy as np
 
 from rocking.model.package import VERSION
-from rocking.model.validation import WrongType
+from rocking.model.quantity import Quantity
+from rocking.model.table import Table, dictionary, in_si, tables_of
+from rocking.model.validation import Refusal, WrongType, instance, one_of
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+UNITS = ("si", "normalised")
+BLOCK_FOR_SI = "give block=rk.Block(height=…, width=…), or make the system by block.system(…)"
 
 
 def read_only(array: np.ndarray) -> np.ndarray:
@@ -59,12 +68,187 @@ def html(draw: Callable[[], Any], line: str) -> str:
 
 
 class Result:
-    """Base class of results: a figure, which a notebook shows above the text of the result."""
+    """Base class of results: data with units as a dataset, tables, JSON, and a figure, which a notebook shows above the text.
+
+    A result of a system that `Block.system` made is in SI units, unless ``units="normalised"`` is given. Any other is normalised;
+    with a block it is in SI units.
+    """
 
     __slots__ = ()
 
-    PLOT: ClassVar[str]
-    """Name of the function of `rocking.plot` that draws results of the class."""
+    PLOT: ClassVar[str] = ""
+    """Name of the function of `rocking.plot` that draws results of the class; "" if there is none."""
+    LONG: ClassVar[tuple[str, ...]] = ()
+    """Tables that are too long for JSON."""
+    QUANTITIES: ClassVar[Mapping[str, Quantity]] = {}
+    """Quantities of variables whose names mean something else in other results."""
+
+    @property
+    def block(self) -> Any:
+        """Block in SI units that the system was made of; None if there is none."""
+        return getattr(getattr(self, "system", None), "block", None)
+
+    def _data(self) -> xr.Dataset:
+        """Return the data of the result, normalised. Attributes may be True, False or None."""
+        return self.dataset  # type: ignore[attr-defined]
+
+    def _data_for(self, block: Any) -> xr.Dataset:
+        """Return the data, with what they hold only for SI units of a block."""
+        return self._data()
+
+    def _summary(self) -> xr.Dataset:
+        """Return the part of the data that JSON holds."""
+        return self._data()
+
+    def _block(self, units: str | None, block: Any) -> Any:
+        """Return the block of results in SI units, None for normalised ones; errors as in `to_xarray`."""
+        from rocking.model.block import Block
+
+        block = self.block if block is None else instance("block", block, Block)
+        if units is not None and one_of("units", units, UNITS) == "si" and block is None:
+            raise Refusal("units", "be 'normalised' for a system without a block", units, BLOCK_FOR_SI)
+        return None if units == "normalised" else block
+
+    def _with_sizes(self, data: xr.Dataset, block: Any) -> xr.Dataset:
+        """Return data with the sizes of the block as attributes, also if the units are normalised."""
+        from rocking.model.block import block_attributes
+
+        known = block or self.block
+        return data if known is None else data.assign_attrs(block_attributes(known))
+
+    def _dataset(self, data: xr.Dataset, block: Any, chosen: Any) -> xr.Dataset:
+        """Return data in SI units of the chosen block, with attributes that netCDF has."""
+        data = self._with_sizes(data, block)
+        data = data.copy(deep=False) if chosen is None else in_si(data, chosen, self.QUANTITIES)
+        data.attrs = dict(_plain(data.attrs))
+        return data
+
+    def to_xarray(self, *, units: str | None = None, block: Any = None) -> xr.Dataset:
+        """Return the result as a dataset, with units.
+
+        Parameters
+        ----------
+        units : {"si", "normalised"}, optional
+            Units of the values. Default: SI if the block is known, else normalised.
+        block : Block, optional
+            Block of a system that was made without one. Default: that of the system.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with the attributes `long_name` and `units`. The quantities that do not vary are attributes; in SI their
+            names end with the unit.
+
+        Raises
+        ------
+        TypeError
+            If `block` is not a Block, or `units` is not a string.
+        ValueError
+            If `units` is neither of the two, or is "si" without a block.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> system = rk.Block(height=2.0, width=0.5).system(acceleration=4.0, frequency_hz=1.2)
+        >>> motion = rk.simulate(system, cycles=5)
+        >>> motion.to_xarray()["angle"].attrs["units"], motion.to_xarray(units="normalised")["angle"].attrs["units"]
+        ('rad', '1')
+        """
+        chosen = self._block(units, block)
+        return self._dataset(self._data_for(chosen), block, chosen)
+
+    def to_dict(self, *, units: str | None = None, block: Any = None) -> dict[str, Any]:
+        """Return the result as values that JSON has: its attributes, then its tables as lists of rows.
+
+        Parameters
+        ----------
+        units, block
+            As in `to_xarray`.
+
+        Returns
+        -------
+        dict
+            Numbers are finite or None. In SI the keys end with the unit, such as `peak_rad`. Tables that may be very long, such as
+            the samples of a motion, are left out; `tables` has them.
+
+        Raises
+        ------
+        TypeError, ValueError
+            As in `to_xarray`.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> found = rk.classify(rk.Block(2.0, 0.5).system(acceleration=2.0, frequency_hz=1.2)).to_dict()
+        >>> found["kind"], found["peak_rad"], found["acceleration_m_per_s2"]
+        ('rest', 0.0, 2.0)
+        """
+        chosen = self._block(units, block)
+        return dictionary(self._with_sizes(self._summary(), block), self.QUANTITIES, self.LONG, chosen)
+
+    def tables(self, *, units: str | None = None, block: Any = None) -> dict[str, Table]:
+        """Return the result as tables, one for each set of dimensions of its dataset.
+
+        Parameters
+        ----------
+        units, block
+            As in `to_xarray`.
+
+        Returns
+        -------
+        dict of str to dict of str to ndarray
+            Columns by heading, in tables by the names of their dimensions. Headings contain the units. The first table is the
+            principal one.
+
+        Raises
+        ------
+        TypeError, ValueError
+            As in `to_xarray`.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> found = rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=100)
+        >>> list(found.tables()["amplitude"])[:4]
+        ['amplitude [g theta_cr]', 'restitution', 'phase [rad]', 'period [1/alpha]']
+        """
+        chosen = self._block(units, block)
+        return tables_of(self._data_for(chosen), self.QUANTITIES, chosen)
+
+    def to_dataframe(
+        self, table: str | None = None, *, units: str | None = None, block: Any = None
+    ) -> pd.DataFrame:
+        """Return a table of the result as a pandas DataFrame.
+
+        Parameters
+        ----------
+        table : str, optional
+            Name of the table, as in `tables`. Default: the principal one.
+        units, block
+            As in `to_xarray`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Table with units in its headings.
+
+        Raises
+        ------
+        TypeError, ValueError
+            As in `to_xarray`, or if there is no such table.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> found = rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=100)
+        >>> found.to_dataframe()["safe"].tolist()
+        [1.0, 1.0]
+        """
+        import pandas as pd
+
+        tables = self.tables(units=units, block=block)
+        name = next(iter(tables)) if table is None else one_of("table", table, tuple(tables))
+        return pd.DataFrame(tables[name])
 
     def plot(self, *arguments: Any, **options: Any) -> Any:
         """Draw the result by its function of `rocking.plot`, with its further arguments; return what this returns.
@@ -83,4 +267,11 @@ class Result:
         return self.plot()
 
     def _repr_html_(self) -> str | None:
-        return html(self._figure, str(self))
+        return html(self._figure, str(self)) if self.PLOT else None
+
+
+def _plain(attributes: Mapping[Any, Any]) -> Iterable[tuple[Any, Any]]:
+    """Yield attributes that netCDF has: no None, and 1 and 0 for True and False."""
+    for name, value in attributes.items():
+        if value is not None:
+            yield name, int(value) if isinstance(value, bool) else value

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from statistics import NormalDist
 from typing import Any
 
@@ -124,6 +125,25 @@ class Share:
 
     def __str__(self) -> str:
         return f"{_percent(self.value)} % ({_percent(self.low)}–{_percent(self.high)} %)"
+
+
+SHARE_TEXTS = {
+    "fraction": "fraction",
+    "low": "lower end of its 95 % interval",
+    "high": "upper end of its 95 % interval",
+    "count": "number of members",
+    "of": "total number",
+    "unknown": "number of undetermined cases, which may or may not be members",
+}
+
+
+def share_variables(along: str, shares: Iterable[Share]) -> dict[str, tuple[str, Any, dict[str, str]]]:
+    """Return fractions with their intervals and counts as variables of a dataset, whose names begin with that of the dimension."""
+    rows = [(each.value, each.low, each.high, each.count, each.of, each.unknown) for each in shares]
+    return {
+        f"{along}_{name}": (along, list(column), {"long_name": text, "units": "1"})
+        for (name, text), column in zip(SHARE_TEXTS.items(), zip(*rows, strict=True), strict=True)
+    }
 
 
 def _percent(share: float) -> str:

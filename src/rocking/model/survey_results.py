@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from attrs import field, frozen
 
 from rocking.model.orbit import Orbit
-from rocking.model.result import Result
-from rocking.model.share import Share
-from rocking.model.system import State, System
+from rocking.model.quantity import LOWEST
+from rocking.model.result import Result, described
+from rocking.model.share import Share, share_variables
+from rocking.model.system import State, System, quantities
 from rocking.model.verdict import Kind, Verdict
 
 if TYPE_CHECKING:
@@ -87,8 +88,22 @@ class OverturningCurve(Result):
     """
 
     PLOT = "overturning"
+    QUANTITIES: ClassVar = {"lowest": LOWEST}
 
     dataset: xr.Dataset = field(repr=False)
+
+    def _data(self) -> xr.Dataset:
+        """Return the dataset with the range of the amplitudes scanned, and the numbers of amplitudes and phases."""
+        scanned = self.dataset.amplitude.values
+        scan = {
+            "amplitude_range": scanned[[0, -1]].tolist(),
+            "amplitudes": scanned.size,
+            "phases": self.dataset.phase.size,
+        }
+        return self.dataset.assign_attrs(scan)
+
+    def _summary(self) -> xr.Dataset:
+        return self._data().drop_dims(["amplitude", "phase"])
 
     def __str__(self) -> str:
         lowest, scanned = self.dataset.lowest.values, self.dataset.amplitude.values
@@ -172,6 +187,25 @@ class Repeatability(Result):
     kinds: dict[Kind, Share] = field(hash=False)
     responses: dict[str, Share] = field(repr=False, hash=False)
 
+    def _data(self) -> xr.Dataset:
+        import xarray as xr
+
+        variables = share_variables("response", self.responses.values()) | share_variables(
+            "kind", self.kinds.values()
+        )
+        names = {
+            "response": ("response", list(self.responses), {"long_name": "response"}),
+            "kind": ("kind", [str(kind) for kind in self.kinds], {"long_name": "type of the response"}),
+        }
+        attributes = described("Repeatability") | {
+            **quantities(self.system),
+            "start_angle": self.start.angle,
+            "start_velocity": self.start.velocity,
+            "relative": self.relative,
+            "samples": self.repeats.of,
+        }
+        return xr.Dataset(variables, names, attributes)
+
     @property
     def certain(self) -> bool:
         """True if all runs have one response type and none is undetermined."""
@@ -218,6 +252,19 @@ class RepeatabilityMap(Result):
     dataset: xr.Dataset = field(repr=False)
     uncertain: Share
     overturning_uncertain: Share
+
+    def _data(self) -> xr.Dataset:
+        """Return the dataset with both fractions as attributes."""
+        shares = {"uncertain": self.uncertain, "overturning_uncertain": self.overturning_uncertain}
+        found = {
+            f"{name}{end}": getattr(share, part)
+            for name, share in shares.items()
+            for end, part in (("", "value"), ("_low", "low"), ("_high", "high"))
+        }
+        return self.dataset.assign_attrs(found, points=self.uncertain.of)
+
+    def _summary(self) -> xr.Dataset:
+        return self._data().drop_vars(list(self.dataset.data_vars))
 
     def __str__(self) -> str:
         off = 100.0 * self.dataset.attrs["relative"]
@@ -366,6 +413,7 @@ class BasinMap(Result):
     """
 
     PLOT = "basins"
+    LONG = ("velocity_angle", "sample")
 
     system: System
     dataset: xr.Dataset = field(repr=False)
@@ -373,6 +421,49 @@ class BasinMap(Result):
     fractions: tuple[Share, ...]
     uncertainty_exponent: UncertaintyExponent | None
     attractor_exponent: UncertaintyExponent | None
+
+    def _data(self) -> xr.Dataset:
+        """Return the dataset with the basins over `basin`, and the exponents as attributes."""
+        verdicts = [each.verdict for each in self.attractors]
+        columns: dict[str, tuple[str, list[Any]]] = {
+            "name": ("name of the attractor", [each.name for each in self.attractors]),
+            "kind": ("type of the response", [str(each.kind) for each in verdicts]),
+            "response_period": (
+                "forcing cycles per response period",
+                [each.period or 0 for each in verdicts],
+            ),
+            "symmetric": (
+                "whether the response is its own mirror image",
+                [bool(each.symmetric) for each in verdicts],
+            ),
+            "start_angle": (
+                "angle of an initial state of the basin",
+                [each.start.angle for each in verdicts],
+            ),
+            "start_velocity": ("velocity of this initial state", [each.start.velocity for each in verdicts]),
+        }
+        variables = {
+            f"basin_{name}": ("basin", values, {"long_name": text})
+            for name, (text, values) in columns.items()
+        }
+        exponents = {
+            "uncertainty_exponent": self.uncertainty_exponent,
+            "attractor_exponent": self.attractor_exponent,
+        }
+        attributes = {
+            f"{name}{end}": None if each is None else getattr(each, part)
+            for name, each in exponents.items()
+            for end, part in (
+                ("", "value"),
+                ("_low", "low"),
+                ("_high", "high"),
+                ("_misfit", "misfit"),
+                ("_meaning", "meaning"),
+            )
+        }
+        return self.dataset.assign(variables | share_variables("basin", self.fractions)).assign_attrs(
+            attributes
+        )
 
     @property
     def safe(self) -> Share:

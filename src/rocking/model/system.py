@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from rocking.model.forcing import Forcing, Harmonic
 from rocking.model.quantity import ANGLE, BRACE_ANGLE, CRITICAL_ANGLE, RESTITUTION, VELOCITY
@@ -23,6 +24,9 @@ from rocking.model.validation import (
     warn_of_value,
     within,
 )
+
+if TYPE_CHECKING:
+    from rocking.model.block import Block
 
 MODELS = ("slender", "full")
 """Equations of motion: with small angles, or without."""
@@ -112,6 +116,12 @@ def _critical_angle(value: float | None) -> float | None:
     return None if value is None else CRITICAL_ANGLE.checked(value)
 
 
+def _block(value: Any) -> Any:
+    from rocking.model.block import Block
+
+    return None if value is None else instance("block", value, Block)
+
+
 @frozen
 class System:
     """Block on a shaking base, normalised: Yim & Lin (1991), Eqs. (2) and (4), or the full equation.
@@ -138,6 +148,10 @@ class System:
         Coefficient of restitution over the speed before an impact, for the full equation: rows (Θ', e), ascending. Up to the
         first row e changes linearly from `restitution`. Then it is linear between rows, and constant beyond the last.
         Default: none; e is `restitution` at all speeds.
+    block : Block, optional
+        Block in SI units of which the system is the normalised form, as `Block.system` sets it. Results are then in SI units by
+        default. A system with another `restitution` has the same block with this value; one with another `critical_angle` has no
+        block. The block has no effect on equality. Default: none.
 
     Raises
     ------
@@ -158,9 +172,12 @@ class System:
     braces: Braces | None = field(default=None, converter=_braces)
     critical_angle: float | None = field(default=None, converter=_critical_angle)
     restitution_table: tuple[tuple[float, float], ...] = field(default=(), converter=_restitution_table)
+    block: Block | None = field(default=None, converter=_block, kw_only=True, eq=False, repr=False)
 
     def __attrs_post_init__(self) -> None:
         """Refuse a table for the slender block, and braces that a full block reaches only when it lies flat."""
+        if self.block is not None:
+            object.__setattr__(self, "block", self._fitting(self.block))
         if self.critical_angle is None:
             allowed = "be omitted for a slender block"
             remedy = "give its {critical_angle}"
@@ -169,6 +186,12 @@ class System:
             )
         elif self.braces is not None:
             check_below_flat(self.braces.angle, self.critical_angle)
+
+    def _fitting(self, block: Block) -> Block | None:
+        """Return the block with the coefficient of restitution of the system; None if its critical angle is another one."""
+        if self.critical_angle not in (None, block.critical_angle):
+            return None
+        return block if block.restitution == self.restitution else evolve(block, restitution=self.restitution)
 
     @property
     def restitution_law(self) -> tuple[tuple[float, float], ...]:

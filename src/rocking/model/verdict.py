@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from enum import IntEnum, StrEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from attrs import field, frozen
 
-from rocking.model.orbit import Orbit
-from rocking.model.result import Result
-from rocking.model.system import State, System
+from rocking.model.orbit import ORBIT_TEXTS, Orbit, facts_of
+from rocking.model.result import Result, described
+from rocking.model.system import State, System, quantities
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class Kind(StrEnum):
@@ -292,6 +295,40 @@ class Verdict(Result):
     cycles: int
     impacts: int = field(repr=False)
     orbit: Orbit | None = field(repr=False)
+
+    def _data(self) -> xr.Dataset:
+        import xarray as xr
+
+        orbit = {} if self.orbit is None else facts_of(self.orbit)
+        proof = None if self.orbit is None else self.orbit.proof
+        attributes = described("Verdict on the motion") | {
+            **quantities(self.system),
+            "start_angle": self.start.angle,
+            "start_velocity": self.start.velocity,
+            "kind": str(self.kind),
+            "evidence": str(self.evidence),
+            "level": self.evidence.level,
+            "response_period": self.period,
+            **{
+                name: orbit.get(name)
+                for name in ORBIT_TEXTS
+                if name != "orbit_period" and not name.startswith("start_")
+            },
+            "exponent": self.exponent,
+            "exponent_error": self.exponent_error,
+            "superstable": self.superstable,
+            "peak": self.peak,
+            "steady_peak": self.steady_peak,
+            "transient": self.transient,
+            "cycles": self.cycles,
+            "impacts": self.impacts,
+            **{
+                f"tolerance_{name.replace(' ', '_')}": value
+                for name, value in self.evidence.tolerances.items()
+            },
+            **{f"proof_{name}": each for name, each in (proof.facts if proof else {}).items()},
+        }
+        return xr.Dataset(attrs=attributes)
 
     @property
     def superstable(self) -> bool:

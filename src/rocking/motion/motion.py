@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import frozen
 
-from rocking.model.block import Block, block_attributes
+from rocking.model.block import Block
 from rocking.model.forcing import Harmonic, PiecewiseLinear
-from rocking.model.package import VERSION
-from rocking.model.result import Result
+from rocking.model.result import Result, described
 from rocking.model.system import quantities
 from rocking.model.text import counted
 from rocking.model.validation import instance, refuse_if, within
@@ -91,157 +90,79 @@ def time_of_fall(motion: Trajectory, overturning: Overturning, angle: float) -> 
 
 MAX_STEPS = 100_000_000
 
-Unit = tuple[float, str]
-"""Size of the normalised unit in the unit of the output, and name of the latter."""
 Variables = dict[str, tuple[str, Any, dict[str, str]]]
 
 OF_CYCLES = ("cycle", "phase")
 """Quantities of an event that only a periodic base motion gives."""
 EVENTS = {
-    "time": ("time", "time of the event"),
-    "cycle": (None, "forcing cycle of the event, counted from 0"),
-    "phase": ("phase", "forcing phase of the event"),
-    "angle": ("angle", "angle at the event"),
-    "before": ("velocity", "angular velocity just before the event"),
-    "after": ("velocity", "angular velocity just after the event"),
+    "time": ("1", "time of the event"),
+    "cycle": ("", "forcing cycle of the event, counted from 0"),
+    "phase": ("rad", "forcing phase of the event"),
+    "angle": ("1", "angle at the event"),
+    "before": ("1", "angular velocity just before the event"),
+    "after": ("1", "angular velocity just after the event"),
     "kind": (
-        None,
+        "",
         "impact, brace (impact), rest, lift-off, lean (sustained contact with a brace) or leave (release from it)",
     ),
 }
+"""Unit and description of the fields of an event in datasets."""
 
 
-def to_dataset(motion: Trajectory, step: float | None = None, block: Block | None = None) -> xr.Dataset:
-    """Return a motion sampled in time, with its events, or its section.
-
-    Parameters
-    ----------
-    motion : Motion
-        Motion recorded with record="all" or "section".
-    step : float, optional
-        Time step of the samples in τ, or in seconds with a block. Default: a hundredth of the forcing period, or the step of
-        a base acceleration that is given by samples (a fraction of a long one). The samples start at 0 and end at the last
-        whole step of the run. If the block overturns, they continue to |Θ| = 3. With the full
-        equation they continue until it lies flat. A motion that starts beyond is sampled for one unit of time.
-    block : Block, optional
-        Block for output in s, rad and m, with the displacement of its top. Default: normalised output.
-
-    Returns
-    -------
-    xarray.Dataset
-        For record="all": `angle`, `velocity`, `acceleration`, `base_acceleration` (and `top_displacement`) along `time`, and
-        `event_time`, `event_kind`, … along `event`. Cycle and phase of the events exist only for a periodic base motion. For
-        record="section": `angle` and `velocity` along `cycle`. The
-        attributes `units` and `long_name` follow the CF conventions. Attributes of the dataset are the system and the
-        initial state, always normalised, and the version of the package.
-
-    Raises
-    ------
-    TypeError
-        If `step` is not a number.
-    ValueError
-        If `step` is not positive or is longer than the motion, or if the motion recorded neither events nor section.
-
-    Examples
-    --------
-    >>> from rocking import Harmonic, System, simulate
-    >>> motion = simulate(System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925), cycles=5)
-    >>> dict(motion.to_xarray().sizes)
-    {'time': 501, 'event': 9}
-    """
-    import xarray as xr
-
-    units = _units(block)
-    if motion.record == "section":
-        refuse_if(step is not None, "step", 'be omitted for a motion with record="section"', step)
-        variables, coordinates = _section(motion, units)
-    else:
-        variables, coordinates = _samples(motion, _times(motion, step, units), units, block)
-        variables |= _events(motion, units)
-    return xr.Dataset(variables, coordinates, _attributes(motion, block))
-
-
-def _units(block: Block | None) -> dict[str, Unit]:
-    if block is None:
-        return dict.fromkeys(("time", "angle", "velocity", "acceleration", "base"), (1.0, "1"))
-    instance("block", block, Block)
-    turn = block.radians_per_second(1.0)
-    return {
-        "time": (block.seconds(1.0), "s"),
-        "angle": (block.radians(1.0), "rad"),
-        "velocity": (turn, "rad s-1"),
-        "acceleration": (turn * block.frequency_parameter, "rad s-2"),
-        "base": (block.acceleration(1.0), "m s-2"),
-    }
-
-
-def _times(motion: Trajectory, step: float | None, units: dict[str, Unit]) -> np.ndarray:
+def _times(motion: Trajectory, step: float | None, block: Block | None) -> np.ndarray:
     """Normalised times of the samples."""
-    second, unit = units["time"]
+    second, unit = (1.0, "") if block is None else (block.seconds(1.0), "s")
     if step is None:
         spacing = sample_step(motion)
     else:
         longest = (motion.cycles * motion.system.forcing.span or end_shown(motion)) * second
-        spacing = within("step", step, longest / MAX_STEPS, longest, "" if unit == "1" else unit) / second
+        spacing = within("step", step, longest / MAX_STEPS, longest, unit) / second
     end = end_shown(motion)
     return np.minimum(spacing * np.arange(int(end / spacing * (1 + 1e-12)) + 1), end)
 
 
-def _variable(along: str, values: Any, unit: Unit, long_name: str) -> tuple[str, Any, dict[str, str]]:
-    size, name = unit
-    return along, values * size, {"units": name, "long_name": long_name}
+def _variable(along: str, values: Any, text: str, unit: str = "1") -> tuple[str, Any, dict[str, str]]:
+    return along, values, {"units": unit, "long_name": text} if unit else {"long_name": text}
 
 
-def _samples(
-    motion: Trajectory, times: np.ndarray, units: dict[str, Unit], block: Block | None
-) -> tuple[Variables, Variables]:
+def _samples(motion: Trajectory, times: np.ndarray, block: Block | None) -> tuple[Variables, Variables]:
     angle, velocity = motion.at(times)
-    turning, base = motion.acceleration(times), motion.system.forcing.acceleration(times)
+    base = motion.system.forcing.acceleration(times)
     variables = {
-        "angle": _variable("time", angle, units["angle"], "angle of the block"),
-        "velocity": _variable("time", velocity, units["velocity"], "angular velocity of the block"),
-        "acceleration": _variable(
-            "time", turning, units["acceleration"], "angular acceleration of the block"
-        ),
-        "base_acceleration": _variable("time", base, units["base"], "horizontal acceleration of the base"),
+        "angle": _variable("time", angle, "angle of the block"),
+        "velocity": _variable("time", velocity, "angular velocity of the block"),
+        "acceleration": _variable("time", motion.acceleration(times), "angular acceleration of the block"),
+        "base_acceleration": _variable("time", base, "horizontal acceleration of the base"),
     }
     if block is not None:
         top = block.top_displacement(angle)
-        variables["top_displacement"] = _variable("time", top, (1.0, "m"), "displacement of the block's top")
-    return variables, {"time": _variable("time", times, units["time"], "time")}
+        variables["top_displacement"] = _variable("time", top, "displacement of the block's top", "m")
+    return variables, {"time": _variable("time", times, "time")}
 
 
-def _events(motion: Trajectory, units: dict[str, Unit]) -> Variables:
-    units = units | {"phase": (1.0, "rad")}
-    variables: Variables = {}
-    for name, (quantity, long_name) in EVENTS.items():
-        if name in OF_CYCLES and not has_cycles(motion):
-            continue
-        values = motion.events[name]
-        if quantity is None:
-            variables[f"event_{name}"] = "event", values, {"long_name": long_name}
-        else:
-            variables[f"event_{name}"] = _variable("event", values, units[quantity], long_name)
-    return variables
+def _events(motion: Trajectory) -> Variables:
+    return {
+        f"event_{name}": _variable("event", motion.events[name], text, unit)
+        for name, (unit, text) in EVENTS.items()
+        if name not in OF_CYCLES or has_cycles(motion)
+    }
 
 
-def _section(motion: Trajectory, units: dict[str, Unit]) -> tuple[Variables, Variables]:
+def _section(motion: Trajectory) -> tuple[Variables, Variables]:
     angle, velocity = motion.section().T
     cycles = np.arange(angle.size)
     variables = {
-        "angle": _variable("cycle", angle, units["angle"], "angle of the block, once per forcing cycle"),
-        "velocity": _variable(
-            "cycle", velocity, units["velocity"], "angular velocity of the block, once per forcing cycle"
-        ),
+        "angle": _variable("cycle", angle, "angle of the block, once per forcing cycle"),
+        "velocity": _variable("cycle", velocity, "angular velocity of the block, once per forcing cycle"),
     }
     return variables, {
-        "cycle": ("cycle", cycles, {"long_name": "forcing cycles since the start"}),
-        "time": _variable("cycle", cycles * motion.system.periodic.period, units["time"], "time"),
+        "cycle": _variable("cycle", cycles, "forcing cycles since the start", ""),
+        "time": _variable("cycle", cycles * motion.system.periodic.period, "time"),
     }
 
 
-def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
-    """Return the attributes of the dataset: normalised system and initial state, results, and the block if there is one."""
+def _attributes(motion: Trajectory) -> dict[str, Any]:
+    """Return the attributes of the dataset: system, initial state and results."""
     periodic = has_cycles(motion)
     base = (
         "The base acceleration is amplitude cos(frequency time + phase). "
@@ -252,33 +173,32 @@ def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
     full = (
         "" if motion.system.critical_angle is None else " The equation of motion is that of the full block."
     )
-    attributes = {
-        "Conventions": "CF-1.11",
-        "title": "Motion of a free-standing block on a shaking base",
-        "source": f"rocking {VERSION}",
-        "comment": f"Attributes without a unit are normalised as in Yim & Lin (1991), Eqs. (1)-(4). {base}{full}",
+    normalised = described("Motion")
+    attributes = normalised | {
+        "comment": f"{normalised['comment']} {base}{full}",
         **quantities(motion.system),
         "start_angle": motion.start.angle,
         "start_velocity": motion.start.velocity,
         **({"cycles": motion.cycles} if periodic else {}),
         "record": motion.record,
         "outcome": str(motion.outcome),
+        "duration": motion.duration,
         "peak": motion.peak,
         "impacts": motion.impacts,
         "brace_hits": motion.brace_hits,
+        "final_angle": motion.final.angle,
+        "final_velocity": motion.final.velocity,
     }
     if not periodic:
         attributes |= {
             "margin": motion.margin,
             "margin_time": motion.margin_time,
-            "certified": int(motion.certified),
+            "certified": motion.certified,
         }
     if motion.overturning is not None:
         attributes["overturning_time"] = motion.overturning.time
         if periodic:
             attributes["overturning_cycle"] = motion.overturning.cycle
-    if block is not None:
-        attributes |= block_attributes(block)
     return attributes
 
 
@@ -339,28 +259,55 @@ class Motion(Trajectory, Result):
 
     PLOT = "overview"
 
-    def to_xarray(self, step: float | None = None, block: Block | None = None) -> xr.Dataset:
-        """Return the motion sampled in time, as a dataset with units.
+    def _data_for(self, block: Block | None, step: float | None = None) -> xr.Dataset:
+        """Return the samples and events, or the section. With a block, `step` is in seconds."""
+        import xarray as xr
+
+        if self.record == "section":
+            refuse_if(step is not None, "step", 'be omitted for a motion with record="section"', step)
+            variables, coordinates = _section(self)
+        else:
+            variables, coordinates = _samples(self, _times(self, step, block), block)
+            variables |= _events(self)
+        return xr.Dataset(variables, coordinates, _attributes(self))
+
+    def _summary(self) -> xr.Dataset:
+        import xarray as xr
+
+        return xr.Dataset(attrs=_attributes(self))
+
+    def to_xarray(
+        self, step: float | None = None, block: Block | None = None, *, units: str | None = None
+    ) -> xr.Dataset:
+        """Return the motion sampled in time, with its events, or its section, as a dataset with units.
 
         Parameters
         ----------
         step : float, optional
-            Time step in τ, or in seconds with a block. Default: a hundredth of the forcing period, or the step of a
-            base acceleration that is given by samples.
+            Time step of the samples in τ, or in seconds for SI units. Default: a hundredth of the forcing period, or the step of
+            a base acceleration that is given by samples (a fraction of a long one). The samples start at 0 and end at the last
+            whole step of the run. If the block overturns, they continue to |Θ| = 3. With the full
+            equation they continue until it lies flat. A motion that starts beyond is sampled for one unit of time.
         block : Block, optional
-            Block for output in SI units. Default: normalised output.
+            Block of a system that was made without one. Default: that of the system.
+        units : {"si", "normalised"}, optional
+            Units of the values. Default: SI if the block is known, else normalised.
 
         Returns
         -------
         xarray.Dataset
-            Samples and events, or the section; see `rocking.motion.motion.to_dataset`.
+            For record="all": `angle`, `velocity`, `acceleration`, `base_acceleration` (in SI also `top_displacement`) along `time`,
+            and `event_time`, `event_kind`, … along `event`. Cycle and phase of the events exist only for a periodic base motion.
+            For record="section": `angle` and `velocity` along `cycle`. The attributes `units` and `long_name` follow the CF
+            conventions. Attributes of the dataset are the system, the initial state and the version of the package.
 
         Raises
         ------
         TypeError
-            If `step` is not a number.
+            If `step` is not a number, or `block` is not a Block.
         ValueError
             If `step` is not positive or is longer than the motion, or if the motion recorded neither events nor section.
+            If `units` is "si" without a block.
 
         Examples
         --------
@@ -369,7 +316,8 @@ class Motion(Trajectory, Result):
         >>> rk.simulate(system, cycles=2).to_xarray(step=0.5).sizes["time"]
         5
         """
-        return to_dataset(self, step, block)
+        chosen = self._block(units, block)
+        return self._dataset(self._data_for(chosen, step), block, chosen)
 
     def validity(self, block: Block, *, full: bool = False) -> Validity:
         """Assess whether the model applies to this motion of a real block: friction, base reaction and slenderness.

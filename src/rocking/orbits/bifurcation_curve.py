@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import field, frozen
@@ -63,6 +63,7 @@ class BifurcationCurve(ReadOnlyArrays, Result):
     """
 
     PLOT = "bifurcation_curve"
+    LONG = ("point",)
 
     kind: str
     names: tuple[str, str]
@@ -95,14 +96,12 @@ class BifurcationCurve(ReadOnlyArrays, Result):
     def __len__(self) -> int:
         return len(self.points)
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the curve as a dataset, which xarray writes to netCDF and pandas to CSV.
+    @property
+    def block(self) -> Any:
+        """Block of the system, None if there is none."""
+        return self._rows.chain.system.block
 
-        Returns
-        -------
-        xarray.Dataset
-            Both parameters along `point`.
-        """
+    def _data(self) -> xr.Dataset:
         return of_curve(self)
 
     def __str__(self) -> str:

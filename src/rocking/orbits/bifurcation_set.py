@@ -59,6 +59,7 @@ class BifurcationSet(Result):
     """
 
     PLOT = "bifurcation_set"
+    LONG = ("point",)
 
     system: System
     names: tuple[str, str]
@@ -67,14 +68,7 @@ class BifurcationSet(Result):
     curves: tuple[BifurcationCurve, ...] = field(repr=False)
     not_followed: int
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return all curves as one dataset, which xarray writes to netCDF and pandas to CSV.
-
-        Returns
-        -------
-        xarray.Dataset
-            Both parameters and the number of the curve along `point`; type, period and impacts along `curve`.
-        """
+    def _data(self) -> xr.Dataset:
         return of_curves(self)
 
     def __str__(self) -> str:

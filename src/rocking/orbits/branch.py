@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from attrs import field, frozen
@@ -14,6 +14,7 @@ from rocking.kernels.orbits import continuation as kernel
 from rocking.model.orbit import Orbit, Stability, stability_of
 from rocking.model.quantity import PHASE
 from rocking.model.result import ReadOnlyArrays, Result, read_only
+from rocking.model.system import System
 from rocking.model.validation import WrongType, whole, within
 from rocking.orbits.datasets import of_branch
 from rocking.orbits.event_chain import (
@@ -241,6 +242,7 @@ class Branch(ReadOnlyArrays, Result):
     """
 
     PLOT = "branch"
+    LONG = ("point",)
 
     name: str
     period: int
@@ -258,6 +260,11 @@ class Branch(ReadOnlyArrays, Result):
     def _passages(self) -> tuple[SpecialPoint, ...]:
         """Special points, also those that the branch passes again with mirror images or later starts of its orbits."""
         return self._passed or self.special
+
+    @property
+    def _middle(self) -> System:
+        """System of the orbit in the middle of the branch."""
+        return self.orbit(len(self) // 2).system
 
     def __len__(self) -> int:
         return len(self.points)
@@ -367,15 +374,12 @@ class Branch(ReadOnlyArrays, Result):
         """
         return self._rows.section(PHASE.checked(phase))
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the branch as a dataset, which xarray writes to netCDF and pandas to CSV.
+    @property
+    def block(self) -> Any:
+        """Block of the system, None if there is none."""
+        return self._middle.block
 
-        Returns
-        -------
-        xarray.Dataset
-            Columns of `points` along `point`, with the multipliers in real and imaginary parts; special points along
-            `special_point`.
-        """
+    def _data(self) -> xr.Dataset:
         return of_branch(self)
 
     def __str__(self) -> str:

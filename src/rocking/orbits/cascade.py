@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import field, frozen
@@ -85,15 +85,12 @@ class Cascade(ReadOnlyArrays, Result):
         )
         return last, abs(last - before)
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the cascade as a dataset, which xarray writes to netCDF and pandas to CSV.
+    @property
+    def block(self) -> Any:
+        """Block of the system, None if there is none."""
+        return self.special[0].orbit.system.block
 
-        Returns
-        -------
-        xarray.Dataset
-            Along `doubling`: the parameter, and the period, state at the section and Floquet multipliers of the orbit. `ratio` is
-            NaN at the first and the last one. The accumulation and its error are attributes.
-        """
+    def _data(self) -> xr.Dataset:
         return of_cascade(self)
 
     def _repr_html_(self) -> str | None:

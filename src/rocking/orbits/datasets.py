@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rocking.model.orbit import ORBIT_TEXTS, Orbit, facts_of, start_of
 from rocking.model.result import described, named
 from rocking.model.system import quantities
 from rocking.orbits.parameter import coordinate_of, fixed_quantities, kinds_of
@@ -22,27 +23,51 @@ if TYPE_CHECKING:
     from rocking.orbits.find_orbits import Orbits
     from rocking.orbits.grazing_transition import GrazingTransition
     from rocking.orbits.orbit_manifolds import OrbitManifolds
+    from rocking.orbits.saddle_manifolds import Manifold, SaddleManifolds
+
+Variables = dict[str, Any]
+NUMBER_OF_CURVE = named("number of the curve")
 
 
-def multipliers(along: str, values: np.ndarray) -> dict[str, Any]:
-    """Return the real and imaginary parts of Floquet multipliers, shape (n, 2), as variables: netCDF has no complex numbers."""
+def multipliers(along: str, values: np.ndarray) -> Variables:
+    """Return Floquet multipliers, shape (n, 2), as variables of real and imaginary parts: netCDF has no complex numbers."""
     return {
-        f"multiplier_{part}": (
-            (along, "multiplier"),
-            getattr(values, part),
-            named(f"{text} of the Floquet multipliers"),
+        f"multiplier_{number}_{part}": (
+            along,
+            getattr(column, part),
+            named(f"Floquet multiplier {number}, {text}"),
         )
+        for number, column in enumerate(values.T, 1)
         for part, text in (("real", "real part"), ("imag", "imaginary part"))
     }
 
 
+def orbits_along(
+    along: str,
+    orbits: Sequence[Orbit],
+    prefix: str = "",
+    facts: Callable[[Orbit], dict[str, Any]] = facts_of,
+) -> Variables:
+    """Return facts on orbits, without their names and words, as variables; -1 stands for infinitely many impacts."""
+    rows = [facts(each) for each in orbits]
+    return {
+        f"{prefix}{name}": (
+            along,
+            np.array([-1 if row[name] is None else row[name] for row in rows], kind),
+            {"long_name": text} | ({"units": unit} if unit else {}),
+        )
+        for name, (text, unit, kind) in ORBIT_TEXTS.items()
+        if facts is not facts_of or not name.startswith("start_")
+    }
+
+
 def of_branch(branch: Branch) -> xr.Dataset:
-    """Return a branch as a dataset along `point`."""
+    """Return a branch as a dataset along `point`, with its special points along `special` and its ends along `end`."""
     import xarray as xr
 
-    points = branch.points
+    points, special = branch.points, branch.special
+    values = points["parameter"]
     variables = {
-        "parameter": coordinate_of("point", branch.name, points["parameter"]),
         "event_phase": (
             "point",
             points["phase"],
@@ -51,39 +76,44 @@ def of_branch(branch: Branch) -> xr.Dataset:
         "event_velocity": ("point", points["velocity"], named("speed just after the first event")),
         "peak": ("point", points["peak"], named("largest magnitude of the angle of the orbit")),
         "stability": ("point", points["stability"].astype(str), {"long_name": "stability of the orbit"}),
-        "special": (
-            "special_point",
-            np.array([one.kind for one in branch.special], dtype="U17"),
+        **multipliers("point", points["multipliers"]),
+        "special_kind": (
+            "special",
+            np.array([one.kind for one in special], "U17"),
             {"long_name": "type of the special point"},
         ),
-        "special_parameter": coordinate_of(
-            "special_point", branch.name, np.array([one.parameter for one in branch.special], float)
+        f"special_{branch.name}": coordinate_of(
+            "special", branch.name, np.array([one.parameter for one in special], float)
         ),
-        **multipliers("point", points["multipliers"]),
+        **orbits_along("special", [one.orbit for one in special], "special_"),
+        "end_reason": ("end", list(branch.ends), {"long_name": "reason why the branch ends"}),
+        f"end_{branch.name}": coordinate_of("end", branch.name, values[[0, -1]]),
     }
     attributes = described("Branch of periodic orbits") | {
-        **fixed_quantities(branch.orbit(len(branch) // 2).system, branch.name),
+        **fixed_quantities(branch._middle, branch.name),
         "parameter": branch.name,
         "orbit_period": branch.period,
-        "symmetric": int(branch.symmetric),
-        "ends": list(branch.ends),
+        "symmetric": branch.symmetric,
+        "impacts_per_period": branch.impacts,
+        "brace_hits_per_period": branch.brace_hits,
+        "points": len(branch),
+        "stable_points": int(points["stable"].sum()),
+        "peak": float(np.nanmax(points["peak"])),
     }
-    counts = {"impacts": branch.impacts, "brace_hits": branch.brace_hits}
-    attributes |= {name: count for name, count in counts.items() if count is not None}
-    return xr.Dataset(variables, attrs=attributes)
+    return xr.Dataset(variables, {branch.name: coordinate_of("point", branch.name, values)}, attributes)
 
 
-def special_points(names: tuple[str, str], points: Sequence[CodimensionTwoPoint]) -> dict[str, Any]:
-    """Return points of codimension two as variables along `special_point`."""
+def special_points(names: tuple[str, str], points: Sequence[CodimensionTwoPoint]) -> Variables:
+    """Return points of codimension two as variables along `special`."""
     values = np.array([one.values for one in points]).reshape(-1, 2)
     errors = np.array([one.errors for one in points]).reshape(-1, 2)
     kinds = np.array([one.kind for one in points], dtype="U28")
-    variables: dict[str, Any] = {
-        "special": ("special_point", kinds, {"long_name": "type of the point of codimension two"})
+    variables: Variables = {
+        "special_kind": ("special", kinds, {"long_name": "type of the point of codimension two"})
     }
     for name, value, error in zip(names, values.T, errors.T, strict=True):
-        variables[f"special_{name}"] = coordinate_of("special_point", name, value)
-        variables[f"special_{name}_error"] = ("special_point", error, named(f"error of the {name}"))
+        variables[f"special_{name}"] = coordinate_of("special", name, value)
+        variables[f"special_{name}_error"] = ("special", error, named(f"error of the {name}"))
     return variables
 
 
@@ -91,24 +121,20 @@ def of_curve(curve: BifurcationCurve) -> xr.Dataset:
     """Return a bifurcation curve as a dataset along `point`."""
     import xarray as xr
 
-    variables = {
+    coordinates = {
         name: coordinate_of("point", name, values)
         for name, values in zip(curve.names, curve.points.T, strict=True)
     }
-    variables["coefficient"] = (
-        "point",
-        curve.coefficients,
-        named("coefficient of the normal form of the return map"),
-    )
-    variables |= special_points(curve.names, curve.special)
+    text = "coefficient of the normal form of the return map"
+    variables = {"coefficient": ("point", curve.coefficients, named(text))}
     attributes = described("Bifurcation curve") | {
         **fixed_quantities(curve._rows.chain.system, *curve.names),
         "kind": curve.kind,
         "orbit_period": curve.period,
-        "impacts": curve.impacts,
+        "impacts_per_period": curve.impacts,
         "ends": list(curve.ends),
     }
-    return xr.Dataset(variables, attrs=attributes)
+    return xr.Dataset(variables | special_points(curve.names, curve.special), coordinates, attributes)
 
 
 def of_curves(found: BifurcationSet) -> xr.Dataset:
@@ -117,68 +143,57 @@ def of_curves(found: BifurcationSet) -> xr.Dataset:
 
     lengths = [len(curve) for curve in found.curves]
     points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in found.curves)])
-    variables = {
+    coordinates = {
         name: coordinate_of("point", name, values) for name, values in zip(found.names, points.T, strict=True)
     }
-    variables["curve_number"] = (
-        "point",
-        np.repeat(np.arange(len(lengths)), lengths),
-        {"long_name": "number of the curve", "units": "1"},
-    )
-    for name, text in (
-        ("kind", "type of the special points"),
-        ("period", "forcing cycles per response period"),
-        ("impacts", "impacts per response period"),
+    variables: Variables = {
+        "curve_number": ("point", np.repeat(np.arange(len(lengths)), lengths), NUMBER_OF_CURVE)
+    }
+    for name, value, text, kind in (
+        ("kind", "kind", "type of the special points", "U17"),
+        ("orbit_period", "period", "forcing cycles per response period", int),
+        ("impacts_per_period", "impacts", "impacts per response period", int),
     ):
+        values = np.array([getattr(curve, value) for curve in found.curves], kind)
         variables[f"curve_{name}"] = (
             "curve",
-            np.array([getattr(curve, name) for curve in found.curves], "U17" if name == "kind" else int),
-            {"long_name": text} | ({} if name == "kind" else {"units": "1"}),
+            values,
+            {"long_name": text} | ({} if kind == "U17" else {"units": "1"}),
         )
-    specials = [one for curve in found.curves for one in curve.special]
-    variables |= special_points(found.names, specials)
-    variables["special_curve"] = (
-        "special_point",
-        np.repeat(np.arange(len(lengths)), [len(curve.special) for curve in found.curves]),
-        {"long_name": "number of the curve of the special point", "units": "1"},
-    )
+    variables |= special_points(found.names, [one for curve in found.curves for one in curve.special])
+    numbers = np.repeat(np.arange(len(lengths)), [len(curve.special) for curve in found.curves])
+    variables["special_curve"] = "special", numbers, named("number of the curve of the special point")
     attributes = described("Bifurcation set") | {
         **fixed_quantities(found.system, *found.names),
         "max_period": found.max_period,
         "not_followed": found.not_followed,
     }
-    return xr.Dataset(variables, attrs=attributes)
+    return xr.Dataset(variables, coordinates, attributes)
 
 
 def of_cascade(found: Cascade) -> xr.Dataset:
     """Return a cascade of period doublings as a dataset along `doubling`."""
     import xarray as xr
 
-    def column(text: str, values: Any, unit: str = "1") -> tuple[str, Any, dict[str, str]]:
-        return "doubling", values, {"long_name": text, "units": unit}
-
     first = found.special[0]
-    orbits = [one.orbit for one in found.special]
-    ratios = np.full(len(orbits), np.nan)
+    ratios = np.full(len(found.special), np.nan)
     ratios[1:-1] = found.ratios
     accumulation, error = found.accumulation
+    text = "distance to the previous period doubling over that to the next"
     variables = {
-        "parameter": coordinate_of("doubling", first.name, found.values),
-        "period": column("forcing cycles per response period", found.periods),
-        "ratio": column("distance to the previous period doubling over that to the next", ratios),
-        "section_phase": column("forcing phase of the section", [one.phase for one in orbits], "rad"),
-        "angle": column("angle at the section", [one.state.angle for one in orbits]),
-        "velocity": column("angular velocity at the section", [one.state.velocity for one in orbits]),
-        **multipliers("doubling", np.array([one.multipliers for one in orbits], complex)),
+        "ratio": ("doubling", ratios, named(text)),
+        **orbits_along("doubling", [one.orbit for one in found.special]),
     }
     attributes = described("Cascade of period doublings") | {
         **fixed_quantities(first.orbit.system, first.name),
         "parameter": first.name,
-        "accumulation": accumulation,
-        "accumulation_error": error,
+        f"accumulation_{first.name}": accumulation,
+        f"accumulation_{first.name}_error": error,
         "end": found.end,
     }
-    return xr.Dataset(variables, attrs=attributes)
+    return xr.Dataset(
+        variables, {first.name: coordinate_of("doubling", first.name, found.values)}, attributes
+    )
 
 
 def of_transition(found: GrazingTransition) -> xr.Dataset:
@@ -208,7 +223,7 @@ def of_transition(found: GrazingTransition) -> xr.Dataset:
         "exponent_error": (
             name,
             numbers([one.exponent_error for one in verdicts]),
-            named("error of the largest Lyapunov exponent"),
+            named("error of the largest Lyapunov exponent per tau"),
         ),
         "nearest": (
             name,
@@ -223,7 +238,7 @@ def of_transition(found: GrazingTransition) -> xr.Dataset:
     }
     attributes = described("Transition at a grazing") | {
         **fixed_quantities(special.orbit.system, name),
-        "grazing": special.parameter,
+        f"grazing_{name}": special.parameter,
         "orbits": found.orbits,
         "transition": found.kind,
         "order": order,
@@ -233,34 +248,64 @@ def of_transition(found: GrazingTransition) -> xr.Dataset:
     return xr.Dataset(variables, {name: coordinate_of(name, name, found.values)}, attributes)
 
 
+def points_of(curves: Sequence[Manifold], since: str) -> Variables:
+    """Return the points of manifolds along `point`, and their properties along `curve`."""
+    points = np.concatenate([one.points for one in curves])
+    numbers = np.repeat(np.arange(len(curves)), [len(one.points) for one in curves])
+    return {
+        "angle": ("point", points[:, 0], named("angle")),
+        "velocity": ("point", points[:, 1], named("angular velocity")),
+        "time": ("point", np.concatenate([one.times for one in curves]), named(f"time {since}")),
+        "curve_number": ("point", numbers, NUMBER_OF_CURVE),
+        "curve_stable": (
+            "curve",
+            np.array([one.stable for one in curves]),
+            {"long_name": "whether the curve is stable"},
+        ),
+        "curve_side": (
+            "curve",
+            np.array([one.side for one in curves]),
+            named("sign of the side to which the curve belongs"),
+        ),
+        "curve_resolved": (
+            "curve",
+            np.array([one.resolved for one in curves]),
+            {"long_name": "whether the curve is resolved"},
+        ),
+    }
+
+
+def of_saddles(found: SaddleManifolds) -> xr.Dataset:
+    """Return the manifolds of both saddle orbits as a dataset along `point`, `curve` and `saddle`."""
+    import xarray as xr
+
+    variables = {
+        **points_of((*found.unstable, *found.stable), "from or to a small distance from the saddle orbit"),
+        "saddle_angle": ("saddle", found.saddles[:, 0], named("angle of the saddle orbit")),
+        "saddle_velocity": ("saddle", found.saddles[:, 1], named("angular velocity of the saddle orbit")),
+    }
+    attributes = described("Manifolds of the saddle orbits") | {
+        **quantities(found.system),
+        "section_phase": found.phase,
+        "cycles": found.cycles,
+    }
+    return xr.Dataset(variables, attrs=attributes)
+
+
 def of_manifolds(found: OrbitManifolds) -> xr.Dataset:
     """Return the manifolds of an orbit as a dataset along `point`, `curve` and `orbit_point`."""
     import xarray as xr
 
     curves = (*found.unstable, *found.stable)
-    points = np.concatenate([one.points for one in curves])
     # Two halves at each point of the orbit, one after another, first of the unstable manifold.
     starts = np.arange(len(curves)) // 2 % len(found.points)
-    counts = {
-        "curve_stable": ("1 if the half is stable, 0 if unstable", [int(one.stable) for one in curves]),
-        "curve_side": ("sign of the change of the angle where the half begins", [one.side for one in curves]),
-        "curve_resolved": ("1 if the half is resolved", [int(one.resolved) for one in curves]),
-        "curve_orbit_point": ("number of the point of the orbit where the half begins", starts),
-    }
     variables = {
-        "angle": ("point", points[:, 0], named("angle")),
-        "velocity": ("point", points[:, 1], named("angular velocity")),
-        "time": (
-            "point",
-            np.concatenate([one.times for one in curves]),
-            named("time from or to a distance of 1e-6 from the orbit"),
+        **points_of(curves, "from or to a distance of 1e-6 from the orbit"),
+        "curve_orbit_point": (
+            "curve",
+            starts,
+            named("number of the point of the orbit where the curve begins"),
         ),
-        "curve_number": (
-            "point",
-            np.repeat(np.arange(len(curves)), [len(one.points) for one in curves]),
-            named("number of the half"),
-        ),
-        **{name: ("curve", np.array(values), named(text)) for name, (text, values) in counts.items()},
         "orbit_angle": ("orbit_point", found.points[:, 0], named("angle of the orbit")),
         "orbit_velocity": ("orbit_point", found.points[:, 1], named("angular velocity of the orbit")),
     }
@@ -277,34 +322,16 @@ def of_orbits(found: Orbits) -> xr.Dataset:
     """Return periodic orbits as a dataset along `orbit`."""
     import xarray as xr
 
-    def column(text: str, values: list[Any], unit: str = "1") -> tuple[str, np.ndarray, dict[str, str]]:
-        return "orbit", np.array(values), {"long_name": text, "units": unit}
-
-    def count(values: list[int | None]) -> list[int]:
-        return [-1 if value is None else value for value in values]
-
+    proved = [one.proof is not None and one.proof.proved for one in found]
     variables = {
-        "period": column("forcing cycles per response period", [one.period for one in found]),
-        "symmetric": column("1 if the orbit is its own mirror image", [int(one.symmetric) for one in found]),
-        "stability": (
-            "orbit",
-            np.array([str(one.stability) for one in found], "U8"),
-            {"long_name": "stability"},
-        ),
-        "impacts": column("impacts per period; -1 if infinitely many", count([one.impacts for one in found])),
-        "brace_hits": column(
-            "brace impacts per period; -1 if infinitely many", count([one.brace_hits for one in found])
-        ),
-        "section_phase": column("forcing phase of the section", [one.phase for one in found], "rad"),
-        "angle": column("angle at the section", [one.state.angle for one in found]),
-        "velocity": column("angular velocity at the section", [one.state.velocity for one in found]),
-        "hits": column("initial guesses that led to the orbit", list(found.hits)),
-        **multipliers("orbit", np.array([one.multipliers for one in found], complex).reshape(-1, 2)),
+        **orbits_along("orbit", found, facts=lambda orbit: facts_of(orbit) | start_of(orbit)),
+        "hits": ("orbit", np.array(found.hits, int), named("initial guesses that led to the orbit")),
+        "proved": ("orbit", np.array(proved, bool), {"long_name": "whether the orbit is proved"}),
     }
     attributes = described("Periodic orbits") | {
         **quantities(found.system),
         "max_period": found.max_period,
         "starts": found.starts,
-        "settled": int(found.settled),
+        "settled": found.settled,
     }
     return xr.Dataset(variables, attrs=attributes)

@@ -185,14 +185,7 @@ class Orbits(Sequence[Orbit], Result):
     def __len__(self) -> int:
         return len(self.orbits)
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the orbits as a dataset, which xarray writes to netCDF and pandas to CSV.
-
-        Returns
-        -------
-        xarray.Dataset
-            Period, stability, events, multipliers and section of each orbit along `orbit`.
-        """
+    def _data(self) -> xr.Dataset:
         return of_orbits(self)
 
     def __str__(self) -> str:

@@ -14,15 +14,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.forcing import Harmonic
 from rocking.model.orbit import Mode, Orbit
-from rocking.model.quantity import AMPLITUDE, SYSTEM_QUANTITIES
-from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
+from rocking.model.quantity import AMPLITUDE
+from rocking.model.result import ReadOnlyArrays, Result, described, read_only
 from rocking.model.system import System
 from rocking.model.validation import Refusal, WrongType, exactly_one, reals, refuse_if, whole, within
 from rocking.model.verdict import Kind
 from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
-from rocking.orbits.parameter import check_range, check_step, coordinate_of, kinds_of
+from rocking.orbits.parameter import check_range, check_step, coordinate_of
 from rocking.response.classify import classify
 from rocking.theory import symmetric_modes
 
@@ -63,6 +63,7 @@ class FrequencyResponse(ReadOnlyArrays, Result):
     """
 
     PLOT = "frequency_response"
+    LONG = ("point",)
 
     amplitude: float
     restitution: float
@@ -93,70 +94,108 @@ class FrequencyResponse(ReadOnlyArrays, Result):
         period = whole("n", n, 1, MAX_CYCLES_IN_MODE)
         return tuple(branch for branch in self.branches if branch.period == period)
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the frequency response as a dataset.
-
-        Returns
-        -------
-        xarray.Dataset
-            Response from rest along the parameter; points of all branches, one branch after the other, along `point`.
-        """
+    def _data(self) -> xr.Dataset:
         import xarray as xr
 
-        name, rest = self.parameter, self.rest
+        name, branches = self.parameter, self.branches
+        lengths = [len(branch) for branch in branches]
+        rest = self.rest
+        kinds, counts = np.unique(rest["kind"], return_counts=True)
+        special = [(number, one) for number, branch in enumerate(branches) for one in branch.special]
+        places = [int(np.nanargmax(branch.points["peak"])) for branch in branches]
+        highest = [branch.points[place] for branch, place in zip(branches, places, strict=True)]
+
+        def along(dimension: str, values: Any, text: str, unit: str = "1") -> tuple[str, Any, dict[str, str]]:
+            return dimension, values, {"long_name": text} | ({"units": unit} if unit else {})
+
+        def points(column: str, of_rest: Any) -> Any:
+            return np.concatenate([*(branch.points[column] for branch in branches), of_rest])
+
+        def repeated(values: list[Any], of_rest: Any) -> Any:
+            return np.concatenate([np.repeat(np.array(values), lengths), of_rest])
+
+        empty = np.full(len(rest), "", "U16")
         variables = {
-            "rest_kind": kinds_of(name, rest["kind"], "type of the response from rest"),
-            "rest_period": (
-                name,
-                rest["period"],
-                named("forcing cycles per response period; 0 if not periodic"),
+            "branch_number": along(
+                "point",
+                repeated([f"{k}" for k in range(len(branches))], np.full(len(rest), "from rest")),
+                "number of the branch",
+                "",
             ),
-            "rest_peak": (
-                name,
-                rest["peak"],
-                named("largest magnitude of the angle from the initial state on"),
+            "orbit_period": along(
+                "point",
+                repeated([one.period for one in branches], rest["period"]).astype(int),
+                "forcing cycles per response period; 0 if not periodic",
             ),
-            "rest_steady_peak": (
-                name,
-                rest["steady_peak"],
-                named("largest magnitude of the angle of the steady response"),
+            "stability": along(
+                "point", points("stability", empty).astype("U8"), "stability of the orbit", ""
             ),
+            "response": along(
+                "point",
+                repeated([""] * len(branches), rest["kind"]).astype("U16"),
+                "type of the response from rest",
+                "",
+            ),
+            "peak": along(
+                "point",
+                points("peak", self.steady_peak),
+                "largest magnitude of the angle of the orbit or response",
+            ),
+            "branch_mode": along("branch", [one.period for one in branches], "n of the (1, n) orbits"),
+            "branch_symmetric": along(
+                "branch",
+                np.array([one.symmetric for one in branches], bool),
+                "whether the orbits are symmetric",
+                "",
+            ),
+            "branch_points": along("branch", lengths, "number of points"),
+            "branch_stable_points": along(
+                "branch", [int(one.points["stable"].sum()) for one in branches], "number of stable orbits"
+            ),
+            "branch_peak": along(
+                "branch", [float(one["peak"]) for one in highest], "largest magnitude of the angle"
+            ),
+            f"branch_{name}": along(
+                "branch", [float(one["parameter"]) for one in highest], f"{name} of this angle"
+            ),
+            "branch_first_end": along(
+                "branch", [one.ends[0] for one in branches], "reason why the branch begins", ""
+            ),
+            "branch_last_end": along(
+                "branch", [one.ends[1] for one in branches], "reason why the branch ends", ""
+            ),
+            "special_branch": along(
+                "special", np.array([number for number, _ in special], int), "number of the branch"
+            ),
+            "special_kind": along(
+                "special", np.array([one.kind for _, one in special], "U17"), "type of the special point", ""
+            ),
+            f"special_{name}": along(
+                "special",
+                np.array([one.parameter for _, one in special], float),
+                f"{name} of the special point",
+            ),
+            "response_count": along("rest", counts, "number of responses from rest of the type"),
         }
-        counts = [len(branch) for branch in self.branches]
-        for column, text in (
-            ("parameter", SYSTEM_QUANTITIES[name].text),
-            ("stable", "1 if the orbit is stable"),
-            ("peak", "largest magnitude of the angle of the orbit"),
-        ):
-            points = [branch.points[column] for branch in self.branches]
-            together = np.concatenate(points) if points else np.empty(0)
-            variables[f"branch_{column}"] = (
-                "point",
-                together.astype(np.int8 if column == "stable" else float),
-                named(text),
-            )
-        for column, each, text in (
-            ("number", range(len(counts)), "number of the branch"),
-            ("mode", [branch.period for branch in self.branches], "n of the (1, n) orbits"),
-            (
-                "symmetric",
-                [int(branch.symmetric) for branch in self.branches],
-                "1 if the orbits are symmetric",
-            ),
-        ):
-            variables[f"branch_{column}"] = (
-                "point",
-                np.repeat(np.array(each, np.int64), counts),
-                {"long_name": text},
-            )
+        coordinates = {
+            name: coordinate_of("point", name, points("parameter", self.values)),
+            "rest": ("rest", kinds.astype("U16"), {"long_name": "type of the response from rest"}),
+        }
         attributes = described("Frequency response") | {
+            "parameter": name,
+            f"{name}_range": self.values[[0, -1]].tolist(),
+            "values": len(self.values),
             "amplitude": self.amplitude,
             "restitution": self.restitution,
             "phase": 0.0,
             "modes": list(self.modes),
         }
-        coordinate = {name: coordinate_of(name, name, self.values)}
-        return xr.Dataset(variables, coordinate, attributes)
+        return xr.Dataset(variables, coordinates, attributes)
+
+    @property
+    def steady_peak(self) -> NDArray[np.float64]:
+        """Largest |Θ| of each response from rest, shape (m,): of the periodic response or, without one, from the start on."""
+        return np.where(np.isnan(self.rest["steady_peak"]), self.rest["peak"], self.rest["steady_peak"])
 
     def __str__(self) -> str:
         found = "; ".join(_told(n, self.of(n)) for n in self.modes)

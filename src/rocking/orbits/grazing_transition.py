@@ -8,7 +8,7 @@ that shrinks onto the grazing orbit, or jump to another one. A simulation just b
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import field, frozen
@@ -133,15 +133,12 @@ class GrazingTransition(ReadOnlyArrays, Result):
         slope = float(x @ y / (x @ x))
         return slope, math.sqrt(float(((y - slope * x) ** 2).sum() / (len(x) - 2) / (x @ x)))
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the verdicts and distances as a dataset along the parameter, which xarray writes to netCDF and pandas to CSV.
+    @property
+    def block(self) -> Any:
+        """Block of the system, None if there is none."""
+        return self.special.orbit.system.block
 
-        Returns
-        -------
-        xarray.Dataset
-            Along the parameter: its distance from the grazing, type, period and exponent of the response, and both distances of
-            the attractor.
-        """
+    def _data(self) -> xr.Dataset:
         return of_transition(self)
 
     def _repr_html_(self) -> str | None:

@@ -85,14 +85,7 @@ class OrbitDiagram(ReadOnlyArrays, Result):
         """Parameters that were not varied, by name."""
         return fixed_quantities(self.system, self.parameter)
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the diagram as a dataset.
-
-        Returns
-        -------
-        xarray.Dataset
-            `angle` and `velocity` over `sweep`, the parameter and `cycle`; `overturned` and `peak` over the first two.
-        """
+    def _data(self) -> xr.Dataset:
         import xarray as xr
 
         name = self.parameter
@@ -101,12 +94,7 @@ class OrbitDiagram(ReadOnlyArrays, Result):
             "angle": (all_cycles, self.points[..., 0], named("angle at the section")),
             "velocity": (all_cycles, self.points[..., 1], named("angular velocity at the section")),
             "peak": (each, self.peak, named("largest magnitude of the angle after the transient")),
-            "overturned": (
-                each,
-                self.overturned.astype(np.int8),
-                {"long_name": "1 if overturning is proved", "flag_values": [0, 1]}
-                | {"flag_meanings": "bounded overturned"},
-            ),
+            "overturned": (each, self.overturned, {"long_name": "whether overturning is proved"}),
         }
         coordinates = {
             "sweep": ("sweep", np.array(self.sweeps), {"long_name": "order of the values"}),
@@ -117,10 +105,14 @@ class OrbitDiagram(ReadOnlyArrays, Result):
             "start_angle": self.start.angle,
             "start_velocity": self.start.velocity,
             "transient": self.transient,
+            "cycles": self.cycles,
             "section_phase": self.section_phase,
             **self.fixed,
         }
         return xr.Dataset(variables, coordinates, attributes)
+
+    def _summary(self) -> xr.Dataset:
+        return self._data().drop_dims("cycle")
 
     def __str__(self) -> str:
         values = self.values

@@ -76,6 +76,7 @@ class OrbitManifolds(ReadOnlyArrays, Result):
     """
 
     PLOT = "orbit_manifolds"
+    LONG = ("point",)
 
     orbit: Orbit
     phase: float
@@ -84,15 +85,12 @@ class OrbitManifolds(ReadOnlyArrays, Result):
     unstable: tuple[Manifold, ...] = field(repr=False)
     stable: tuple[Manifold, ...] = field(repr=False)
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return all halves as one dataset, which xarray writes to netCDF and pandas to CSV.
+    @property
+    def block(self) -> Any:
+        """Block of the system, None if there is none."""
+        return self.orbit.system.block
 
-        Returns
-        -------
-        xarray.Dataset
-            States, times and the number of the half along `point`. Along `curve`: whether a half is stable and resolved, its side,
-            and the point of the orbit where it begins. The points of the orbit along `orbit_point`.
-        """
+    def _data(self) -> xr.Dataset:
         return of_manifolds(self)
 
     def __str__(self) -> str:

@@ -114,15 +114,7 @@ class ResponseDiagram(ReadOnlyArrays, Result):
         """Parameters that were not varied, by name."""
         return fixed_quantities(self.system, self.parameter)
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the diagram as a dataset.
-
-        Returns
-        -------
-        xarray.Dataset
-            Over the parameter: `kind` (a code, explained by its attributes), `orbit_period`, `symmetric`, `exponent`,
-            `exponent_error`, `rotation`, `rotation_error`, and the `evidence` in words with its `level`.
-        """
+    def _data(self) -> xr.Dataset:
         import xarray as xr
 
         name = self.parameter
@@ -134,9 +126,13 @@ class ResponseDiagram(ReadOnlyArrays, Result):
                 self.period,
                 named("forcing cycles per response period; 0 if not periodic"),
             ),
-            "symmetric": (name, self.symmetric.astype(np.int8), named("1 if the response is symmetric")),
+            "symmetric": (name, self.symmetric, {"long_name": "whether the response is symmetric"}),
             "exponent": (name, self.exponent, named("largest Lyapunov exponent per tau")),
-            "exponent_error": (name, self.exponent_error, named("error of the largest Lyapunov exponent")),
+            "exponent_error": (
+                name,
+                self.exponent_error,
+                named("error of the largest Lyapunov exponent per tau"),
+            ),
             "rotation": (name, self.rotation, named("rotation number: mean number of impacts per cycle")),
             "rotation_error": (name, self.rotation_error, named("error of the rotation number")),
             "evidence": (name, np.array(self.evidence), {"long_name": "evidence of the verdict"}),

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from attrs import field, frozen
@@ -22,8 +22,12 @@ from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.system import State, System
 from rocking.model.validation import Refusal, TooManyEvents, instance, refuse_if, whole, within
 from rocking.motion.march_loop import start_march
+from rocking.orbits.datasets import of_saddles
 from rocking.orbits.parameter import with_value
 from rocking.theory import saddle_orbit
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 # Largest angle between neighbouring pieces of a curve, rad, if they are longer than this fraction of the spacing.
 BEND, SHORT = 0.2, 1e-2
@@ -241,6 +245,7 @@ class SaddleManifolds(ReadOnlyArrays, Result):
     """
 
     PLOT = "manifolds"
+    LONG = ("point",)
 
     system: System
     phase: float
@@ -248,6 +253,9 @@ class SaddleManifolds(ReadOnlyArrays, Result):
     saddles: NDArray[np.float64] = field(repr=False, converter=read_only)
     unstable: tuple[Manifold, ...] = field(repr=False)
     stable: tuple[Manifold, ...] = field(repr=False)
+
+    def _data(self) -> xr.Dataset:
+        return of_saddles(self)
 
     def __str__(self) -> str:
         curves = (*self.unstable, *self.stable)

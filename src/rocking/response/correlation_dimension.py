@@ -263,6 +263,10 @@ class CorrelationDimension(ReadOnlyArrays, Result):
     isolated : int or None
         Number of distinct points, if they are too few for pairs to scale. The dimension is then exactly 0.
 
+    Notes
+    -----
+    In the dataset, `correlation_sum` is over `radius`; `slope` and `slope_error` are along `interval`, between neighbouring radii.
+
     Examples
     --------
     >>> import rocking as rk
@@ -296,14 +300,7 @@ class CorrelationDimension(ReadOnlyArrays, Result):
         """Width of the scaling region, in decades of r."""
         return 0.0 if self.isolated else math.log10(self.scaling_region[1] / self.scaling_region[0])
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the correlation sums and their slopes as a dataset, which xarray writes to netCDF and pandas to CSV.
-
-        Returns
-        -------
-        xarray.Dataset
-            `correlation_sum` over `radius`; `slope` and `slope_error` along `interval`, between neighbouring radii.
-        """
+    def _data(self) -> xr.Dataset:
         import xarray as xr
 
         variables = {
@@ -322,6 +319,7 @@ class CorrelationDimension(ReadOnlyArrays, Result):
             "scaling_region": list(self.scaling_region),
             "points": self.points,
             "theiler": self.theiler,
+            "decades": self.decades,
             "isolated": self.isolated or 0,
         }
         return xr.Dataset(variables, {"radius": radius}, attributes)

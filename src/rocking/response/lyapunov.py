@@ -55,6 +55,11 @@ class LyapunovSpectrum(ReadOnlyArrays, Result):
     lengths : ndarray, shape (batches,)
         Number of cycles in each batch.
 
+    Notes
+    -----
+    In the dataset, `exponent` and `exponent_error` are over `direction`, and `running_exponent` and `running_exponent_error` over
+    `cycles` since the transient, too.
+
     Examples
     --------
     >>> import rocking as rk
@@ -65,6 +70,7 @@ class LyapunovSpectrum(ReadOnlyArrays, Result):
     """
 
     PLOT = "convergence"
+    LONG = ("cycles_direction",)
 
     system: System
     start: State
@@ -146,39 +152,49 @@ class LyapunovSpectrum(ReadOnlyArrays, Result):
             )
         return 1.0 - one / two, error / abs(two) + one * other / two**2
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the exponents and their running estimates as a dataset.
-
-        Returns
-        -------
-        xarray.Dataset
-            `value` and `error` of each `exponent`; `running_value` and `running_error` over `cycles` since the transient.
-        """
+    def _data(self) -> xr.Dataset:
         import xarray as xr
 
-        history = self.history
-        running = ("cycles", "exponent")
+        history = self._final if self.superstable else self.history
+        running = ("cycles", "direction")
         variables = {
-            "value": ("exponent", self.values, named("Lyapunov exponent per tau")),
-            "error": ("exponent", self.errors, named("error of the Lyapunov exponent per tau")),
-            "running_value": (
+            "exponent": ("direction", self.values, named("Lyapunov exponent per tau")),
+            "exponent_error": ("direction", self.errors, named("error of the Lyapunov exponent per tau")),
+            "running_exponent": (
                 running,
                 history["values"],
                 named("running estimate of the Lyapunov exponent per tau"),
             ),
-            "running_error": (running, history["errors"], named("error of the running estimate per tau")),
+            "running_exponent_error": (
+                running,
+                history["errors"],
+                named("error of the running estimate per tau"),
+            ),
         }
-        cycles = "cycles", history["cycles"], named("forcing cycles since the transient")
+        coordinates = {
+            "direction": ("direction", [1, 2], named("number of the exponent, in descending order")),
+            "cycles": ("cycles", history["cycles"], named("forcing cycles since the transient")),
+        }
+        dimension, error = dimension_of(self) or (None, None)
         attributes = described("Lyapunov exponents") | {
             **quantities(self.system),
             "start_angle": self.start.angle,
             "start_velocity": self.start.velocity,
+            "bounded": self.bounded,
+            "superstable": self.superstable,
+            "kaplan_yorke": dimension,
+            "kaplan_yorke_error": error,
+            "cycles": self.cycles,
             "transient": self.transient,
-            "bounded": int(self.bounded),
             "impacts": self.impacts,
             "brace_hits": self.brace_hits,
         }
-        return xr.Dataset(variables, {"cycles": cycles}, attributes)
+        return xr.Dataset(variables, coordinates, attributes)
+
+    @property
+    def _final(self) -> np.ndarray:
+        """Result after all cycles, as one row of `history`."""
+        return np.array([(self.cycles, self.values, self.errors)], HISTORY)
 
     def __str__(self) -> str:
         over = f"over {counted(self.cycles, 'cycle')} after {self.transient:,}"
@@ -188,6 +204,14 @@ class LyapunovSpectrum(ReadOnlyArrays, Result):
         return f"λ = {one}, {two} per τ {over}" + (
             "; errors are bounds, not standard errors" if self.bounded else ""
         )
+
+
+def dimension_of(spectrum: LyapunovSpectrum) -> tuple[float, float] | None:
+    """Return the Kaplan–Yorke dimension and its error; None where there is none, or it is undecided."""
+    try:
+        return spectrum.kaplan_yorke
+    except ValueError:
+        return None
 
 
 def rounding_of(events: int, time: float) -> float:

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import NDArray
 
 from rocking.kernels.numerics import averages
-from rocking.model.system import State, System, check_periodic
+from rocking.model.result import Result, described
+from rocking.model.system import State, System, check_periodic, quantities
 from rocking.model.text import counted, ordinal
 from rocking.model.validation import Refusal, TooShort, whole
 from rocking.model.verdict import Outcome
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 
@@ -117,7 +122,7 @@ ISLANDS_WITHIN = 4
 
 
 @frozen
-class RotationNumber:
+class RotationNumber(Result):
     """Rotation numbers of an undamped motion: the part locked to the forcing and the free part; returned by `rotation_number`.
 
     Attributes
@@ -156,6 +161,25 @@ class RotationNumber:
     period: int
     free: float | None
     digits: int
+
+    def _data(self) -> xr.Dataset:
+        import xarray as xr
+
+        impacts, cycles = self.locked or (None, None)
+        attributes = described("Rotation number") | {
+            **quantities(self.system),
+            "start_angle": self.start.angle,
+            "start_velocity": self.start.velocity,
+            "cycles": self.cycles,
+            "section": self.section,
+            "per_cycle": self.per_cycle,
+            "locked_impacts": impacts,
+            "locked_cycles": cycles,
+            "island_period": self.period,
+            "free": self.free,
+            "digits": self.digits,
+        }
+        return xr.Dataset(attrs=attributes)
 
     def __str__(self) -> str:
         known = f"to {self.digits} digits over {self.cycles} cycles"

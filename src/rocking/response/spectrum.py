@@ -104,6 +104,11 @@ class SpectralDensity(ReadOnlyArrays, Result):
     peaks : tuple of Peak
         Spectral lines, the strongest first.
 
+    Notes
+    -----
+    In the dataset, `density` is over `cyclic_frequency`. `line_frequency`, `line_amplitude` and `line_name` are along `line`, the
+    strongest first.
+
     Examples
     --------
     >>> import rocking as rk
@@ -114,6 +119,7 @@ class SpectralDensity(ReadOnlyArrays, Result):
     """
 
     PLOT = "spectrum"
+    LONG = ("cyclic_frequency",)
 
     system: System
     frequency: np.ndarray = field(repr=False, converter=read_only)
@@ -161,18 +167,11 @@ class SpectralDensity(ReadOnlyArrays, Result):
         """True if more than a tenth of the variance lies outside the spectral lines."""
         return self.line_share < SHARE_OF_LINES
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return the density and its lines as a dataset, which xarray writes to netCDF and pandas to CSV.
-
-        Returns
-        -------
-        xarray.Dataset
-            `density` over `frequency`; `line_frequency`, `line_amplitude` and `line_name` along `line`, the strongest first.
-        """
+    def _data(self) -> xr.Dataset:
         import xarray as xr
 
         variables = {
-            "density": ("frequency", self.density, named("power spectral density of the angle")),
+            "density": ("cyclic_frequency", self.density, named("power spectral density of the angle")),
             "line_frequency": (
                 "line",
                 np.array([peak.frequency for peak in self.peaks], float),
@@ -189,7 +188,7 @@ class SpectralDensity(ReadOnlyArrays, Result):
                 {"long_name": "combination of the forcing frequency f and the rotation frequency f_r"},
             ),
         }
-        frequency = "frequency", self.frequency, named("frequency in cycles per tau")
+        frequency = "cyclic_frequency", self.frequency, named("frequency in cycles per tau")
         attributes = described("Power spectral density of the angle") | {
             **quantities(self.system),
             "transient": self.transient,
@@ -199,10 +198,16 @@ class SpectralDensity(ReadOnlyArrays, Result):
             "segments": self.segments,
             "overlap": self.overlap,
             "samples": self.samples,
-            "mean": self.mean,
+            "aliased": self.aliased,
+            "line_share": self.line_share,
+            "broad_band": self.broad_band,
+            "response_period": self.period,
+            "symmetric": self.symmetric,
+            "rotation": self.rotation,
+            "mean_angle": self.mean,
             "variance": self.variance,
         }
-        return xr.Dataset(variables, {"frequency": frequency}, attributes)
+        return xr.Dataset(variables, {"cyclic_frequency": frequency}, attributes)
 
     def __str__(self) -> str:
         unnamed = sum(not peak.name for peak in self.peaks)

@@ -1,0 +1,232 @@
+"""All results in all formats: dataset, netCDF, JSON, tables, pandas, notebook, text and pickle; normalised and in SI."""
+
+import csv
+import io
+import json
+import pickle
+from functools import cache
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+from rocking.model.quantity import QUANTITIES
+from rocking.model.result import Result
+
+BLOCK = rk.Block(2.0, 0.5)
+SYSTEM = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
+OF_BLOCK = BLOCK.system(acceleration=4.0, frequency_hz=1.2)
+RESTING = rk.System(rk.Harmonic(amplitude=1.1, period=2.0), restitution=0.5)
+BRANCHING = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+RECORDS = rk.synthetic_ground_motions(3, seed=1)
+LEVELS = [3.0, 4.0, 6.0]
+
+
+@cache
+def branch():
+    return rk.continue_orbit(rk.classify(BRANCHING).orbit, "amplitude", (10, 30), step=0.05)
+
+
+def cascade():
+    system = rk.System(rk.Harmonic(amplitude=10.46, period=1.721328), restitution=0.8)
+    doubling = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10.3, 10.9)).special[0]
+    return rk.cascade(doubling, (10.3, 10.9), doublings=4)
+
+
+def transition():
+    system = rk.System(rk.Harmonic(4.0, period=1.0), 0.8, rk.Braces(0.3, 0.7))
+    followed = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (0.5, 15.0))
+    return rk.grazing_transition(followed.special[-1])
+
+
+def orbit_manifolds():
+    saddle = next(each for each in rk.find_orbits(SYSTEM, 3) if each.impacts and each.stability == "unstable")
+    return rk.orbit_manifolds(saddle, length=0.5)
+
+
+MADE = {
+    "motion": lambda: rk.simulate(SYSTEM, cycles=20),
+    "motion of a block": lambda: rk.simulate(OF_BLOCK, cycles=20),
+    "motion under a record": lambda: rk.simulate(BLOCK.system(RECORDS[0])),
+    "section": lambda: rk.simulate(SYSTEM, cycles=20, record="section"),
+    "verdict": lambda: rk.classify(SYSTEM),
+    "verdict of a block": lambda: rk.classify(OF_BLOCK, prove=True),
+    "verdict of a resting block": lambda: rk.classify(RESTING),
+    "orbit": lambda: rk.classify(SYSTEM).orbit,
+    "proof": lambda: rk.prove(rk.classify(SYSTEM).orbit),
+    "horseshoe": lambda: rk.horseshoe(rk.System(rk.Harmonic(amplitude=3.7, period=1.0), restitution=0.8)),
+    "exponents": lambda: rk.lyapunov(SYSTEM, cycles=200),
+    "exponents of a block": lambda: rk.lyapunov(OF_BLOCK, cycles=200),
+    "exponents of a resting block": lambda: rk.lyapunov(RESTING, cycles=100),
+    "spectrum": lambda: rk.spectral_density(rk.simulate(OF_BLOCK, cycles=300), transient=100),
+    "dimension": lambda: rk.correlation_dimension(np.random.default_rng(1).random((3_000, 2))),
+    "rotation number": lambda: rk.rotation_number(
+        rk.System(rk.Harmonic(amplitude=4.0, period=0.4), restitution=1.0)
+    ),
+    "branch": branch,
+    "branch of a block": lambda: rk.continue_orbit(
+        rk.classify(OF_BLOCK).orbit, "amplitude", (1.4, 1.7), step=0.1
+    ),
+    "curve": lambda: rk.bifurcation_curve(
+        branch().special[0], "period", "amplitude", ((1, 1.2), (1, 30)), step=0.1
+    ),
+    "bifurcation set": lambda: rk.bifurcation_set(
+        rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9),
+        1,
+        grid=2,
+        period=(1.5, 2.0),
+        amplitude=(3.0, 12.0),
+    ),
+    "cascade": cascade,
+    "transition": transition,
+    "orbits": lambda: rk.find_orbits(SYSTEM, 1),
+    "orbits of a resting block": lambda: rk.find_orbits(RESTING, 1),
+    "orbit diagram": lambda: rk.orbit_diagram(
+        OF_BLOCK, "amplitude", [1.0, 2.0, 9.0], sweep="rest", cycles=4, transient=4
+    ),
+    "response diagram": lambda: rk.response_diagram(OF_BLOCK, "amplitude", [0.5, 1.5]),
+    "frequency response": lambda: rk.frequency_response(
+        period=[0.5, 1.0], amplitude=2.0, restitution=0.925, modes=(1,)
+    ),
+    "manifolds": lambda: rk.saddle_manifolds(
+        rk.System(rk.Harmonic(amplitude=4.0, period=1.0), restitution=0.8), cycles=1
+    ),
+    "orbit manifolds": orbit_manifolds,
+    "basins": lambda: rk.basin_map(OF_BLOCK, angle=[0.0, 0.1], velocity=[0.0, 0.1], boundary_runs=0),
+    "random basins": lambda: rk.basin_map(SYSTEM, angle=(0, 1), velocity=(0, 1), samples=20),
+    "safe basin": lambda: rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=10),
+    "overturning": lambda: rk.overturning_amplitude(
+        period=[1.5, 2.0], restitution=0.925, amplitude=[1.0, 4.0], phases=2
+    ),
+    "overturning of one system": lambda: rk.overturning_amplitude(
+        period=2.0, restitution=0.925, amplitude=[1.0, 4.0], phases=2
+    ),
+    "chaos": lambda: rk.chaos_share(
+        restitution=[0.8, 0.9], period=(0.5, 1.0), amplitude=(0.1, 0.9), samples=5
+    ),
+    "repeatability": lambda: rk.repeatability(OF_BLOCK, samples=10),
+    "map of repeatability": lambda: rk.repeatability_map(
+        amplitude=[0.2, 0.5], period=[1.0, 2.0], restitution=0.9, samples=5
+    ),
+    "proved share": lambda: rk.proved_share(
+        rk.parametric_map(amplitude=[2.0, 3.0], period=[0.5, 1.0], restitution=0.925)
+    ),
+    "incremental dynamic analysis": lambda: rk.incremental_dynamic_analysis(
+        RECORDS, BLOCK, LEVELS, intensity="pga"
+    ),
+    "overturning set": lambda: rk.overturning_set(RECORDS, BLOCK, LEVELS, intensity="pga"),
+    "fragility": lambda: rk.fragility(RECORDS, BLOCK, LEVELS, intensity="pga", limits=[0.5]),
+    "sensitivity": lambda: rk.sensitivity(RECORDS, BLOCK, LEVELS, intensity="pga"),
+}
+WITHOUT_FIGURE = {"orbit", "proof", "horseshoe", "rotation number", "proved share", "sensitivity"}
+
+
+@cache
+def made(name):
+    return MADE[name]()
+
+
+def test_every_class_of_results_is_tested():
+    def below(kind):
+        return {each.__name__ for each in kind.__subclasses__()}.union(*map(below, kind.__subclasses__()))
+
+    tested = {type(made(name)).__name__ for name in MADE}
+    assert below(Result) == tested
+
+
+@pytest.mark.parametrize("units", ["si", "normalised"])
+@pytest.mark.parametrize("name", MADE)
+def test_dataset_describes_its_variables_and_comes_back_from_a_file(name, units, tmp_path):
+    data = made(name).to_xarray(units=units, block=BLOCK)
+    for each, variable in data.variables.items():
+        normalised = variable.attrs.get("units") == "1"
+        assert variable.attrs.get("long_name") or each in ("record", "change", "sample"), each
+        assert not (units == "si" and normalised and QUANTITIES[each].si) if each in QUANTITIES else True
+    assert data.attrs["block_height_m"] == 2.0
+    data.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    read = xr.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
+    xr.testing.assert_equal(read, data)
+    assert read.attrs.keys() == data.attrs.keys()
+
+
+@pytest.mark.parametrize("units", ["si", "normalised"])
+@pytest.mark.parametrize("name", MADE)
+def test_json_and_tables_hold_the_values_of_the_dataset(name, units):
+    result = made(name)
+    data = result.to_xarray(units=units, block=BLOCK)
+    tables = result.tables(units=units, block=BLOCK)
+    found = json.loads(json.dumps(result.to_dict(units=units, block=BLOCK), allow_nan=False))
+    assert {"title", "source"} <= found.keys()
+    for each, table in tables.items():
+        columns = list(table.values())
+        assert len({len(column) for column in columns}) == 1
+        if each in found:
+            assert len(found[each]) == len(columns[0])
+            assert [len(row) for row in found[each]] == [len(columns)] * len(columns[0])
+    for each, variable in data.data_vars.items():
+        if variable.dtype.kind == "f" and variable.dims:
+            table = tables["_".join(variable.dims)]
+            assert any(
+                np.array_equal(column, variable.values.ravel(), equal_nan=True)
+                for column in table.values()
+                if column.dtype.kind == "f"
+            ), each
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_principal_table_comes_back_from_csv_and_pandas(name):
+    result = made(name)
+    principal = next(iter(result.tables()))
+    frame = result.to_dataframe()
+    assert list(frame) == list(result.tables()[principal])
+    stream = io.StringIO(frame.to_csv(index=False))
+    assert len(list(csv.DictReader(stream))) == len(frame) > 0
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_notebook_shows_the_figure_above_the_text(name):
+    shown = made(name)._repr_html_()
+    if name in WITHOUT_FIGURE:
+        assert shown is None
+    else:
+        assert shown.startswith("<figure><img")
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_copy_in_another_process_has_the_same_text_and_data(name):
+    result = made(name)
+    copy = pickle.loads(pickle.dumps(result))
+    assert str(copy) == str(result)
+    assert copy.to_dict() == result.to_dict()
+    assert copy.block == result.block
+
+
+def test_result_of_a_block_is_in_si_by_default():
+    motion = made("motion of a block")
+    assert motion.to_xarray()["angle"].attrs["units"] == "rad"
+    assert motion.to_xarray(units="normalised")["angle"].attrs["units"] == "1"
+    found = motion.to_dict()
+    assert found["peak_rad"] == BLOCK.radians(motion.peak)
+    assert found["acceleration_m_per_s2"] == 4.0
+    assert found["frequency_hz"] == pytest.approx(1.2, rel=1e-15)
+    assert not {"peak", "amplitude", "frequency"} & found.keys()
+    assert motion.to_dict(units="normalised")["peak"] == motion.peak
+
+
+@pytest.mark.parametrize("method", ["to_xarray", "to_dict", "tables", "to_dataframe"])
+def test_si_without_a_block_and_unknown_units_are_refused_in_a_sentence(method):
+    motion = made("motion")
+    with pytest.raises(
+        ValueError, match=r"units must be 'normalised' for a system without a block; got 'si' \("
+    ):
+        getattr(motion, method)(units="si")
+    with pytest.raises(ValueError, match="units must be one of 'si', 'normalised'; got 'm'"):
+        getattr(motion, method)(units="m")
+    with pytest.raises(TypeError, match="block must be a Block"):
+        getattr(motion, method)(block=2.0)
+
+
+def test_unknown_table_is_refused():
+    with pytest.raises(ValueError, match="table must be one of 'time', 'event'"):
+        made("motion").to_dataframe("events")
