@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 from attrs import frozen
 
-from rocking.cli.options import FILMS, SURVEYED, InvalidInput, OutputFile, OutputFolder, option, refusals
+from rocking.cli.options import FILMS, InvalidInput, OutputFile, OutputFolder, option, refusals
 from rocking.model.block import Block, block_attributes
 from rocking.model.files import (
     TILES,
@@ -24,7 +23,8 @@ from rocking.model.files import (
     replacing_hdf5,
     resolve_path,
 )
-from rocking.model.quantity import IN_SI, QUANTITIES
+from rocking.model.quantity import IN_SI
+from rocking.model.table import finite
 from rocking.model.text import shown_path
 
 if TYPE_CHECKING:
@@ -130,28 +130,6 @@ def write_dataset(data: xr.Dataset, path: Path) -> None:
         data.to_netcdf(file, engine="h5netcdf")
 
 
-def columns(table: Table, block: Block | None) -> dict[str, Any]:
-    """Return columns with units in their headings; with a block, its quantities are repeated in SI."""
-    headed = {
-        QUANTITIES[name].heading if name in QUANTITIES else name: column for name, column in table.items()
-    }
-    if block is None:
-        return headed
-    return headed | {
-        IN_SI[name].heading: IN_SI[name].of(block, table[name]) for name in table if name in IN_SI
-    }
-
-
-def with_fixed(table: Table, varied: Iterable[Any], quantities: Mapping[Any, Any]) -> dict[str, Any]:
-    """Return the columns of the varied quantities, of the fixed ones, then all others, so that each row states its system."""
-    import numpy as np
-
-    count = len(next(iter(table.values())))
-    first = {str(name): table[str(name)] for name in varied}
-    fixed = {name: np.full(count, quantities[name]) for name in SURVEYED if name in quantities}
-    return first | fixed | dict(table)
-
-
 def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
     """Return the dataset with additional coordinates in SI and with the block in its attributes."""
     if block is None:
@@ -179,47 +157,83 @@ class Text(NamedTuple):
     lines: Iterable[str] = ()
 
 
-def _none(*_: Any) -> Any:
+def _result(computed: Any) -> Any:
+    return computed
+
+
+def _nothing(*_: Any) -> dict[str, Any]:
     return {}
 
 
 @frozen
 class Report:
-    """How a result is printed and written. Each function takes the result and its request.
+    """How a result is printed and written. Each function takes what the command computed and its request.
 
-    `record` returns the entries in JSON before the list of files, `more` those after it. `figure` also takes `rocking.plot`.
+    `result` returns the result of what was computed, whose data the files and the JSON hold. `more` returns further entries of the
+    JSON. `figure` also takes `rocking.plot`.
     """
 
     text: Callable[[Any, Request], Text]
-    record: Callable[[Any, Request], dict[str, Any]]
-    figure: Callable[[Any, Any, Request], Any] = _none
-    tables: Callable[[Any, Request], Iterable[Table]] = _none
-    data: Callable[[Any, Request], xr.Dataset] = _none
-    more: Callable[[Any, Request], dict[str, Any]] = _none
-    write_data: Callable[[xr.Dataset, Path], None] = write_dataset
+    figure: Callable[[Any, Any, Request], Any] | None = None
+    more: Callable[[Any, Request], dict[str, Any]] = _nothing
+    result: Callable[[Any], Any] = _result
+    table: str = ""
+    """Table of the CSV file. Default: the principal one."""
+    rows: Callable[[Any, Request], Iterable[Table]] | None = None
+    """Tables of the CSV file in parts, if they are not those of the result."""
+    entries: Callable[[Any, Request], dict[str, Any]] | None = None
+    """Entries of the JSON, if they are not those of the result."""
+    netcdf: Callable[[Any, Request, Path], None] | None = None
+    """Function that writes the netCDF file, if it is not that of the result."""
+
+    def drawn(self, plot: Any, computed: Any, request: Request) -> Any:
+        """Return the figure of the result."""
+        if self.figure is not None:
+            return self.figure(plot, computed, request)
+        return self.result(computed).plot(block=request.block)
+
+    def tables(self, computed: Any, request: Request) -> Iterable[Table]:
+        """Return the tables of the CSV file."""
+        if self.rows is not None:
+            return self.rows(computed, request)
+        tables = self.result(computed).tables(block=request.block)
+        return [tables[self.table or next(iter(tables))]]
+
+    def write_data(self, computed: Any, request: Request, path: Path) -> None:
+        """Write the netCDF file."""
+        if self.netcdf is not None:
+            self.netcdf(computed, request, path)
+            return
+        write_dataset(self.result(computed).to_xarray(block=request.block), path)
+
+    def record(self, computed: Any, request: Request) -> dict[str, Any]:
+        """Return the result as values of JSON."""
+        if self.entries is not None:
+            return self.entries(computed, request)
+        return self.result(computed).to_dict(block=request.block)
 
 
-def write(report: Report, result: Any, request: Request, files: Mapping[str, Path]) -> None:
+def write(report: Report, computed: Any, request: Request, files: Mapping[str, Path]) -> None:
     """Write the requested files of a result."""
     for name, path in files.items():
         if name == "csv":
-            write_csv(report.tables(result, request), path)
+            write_csv(report.tables(computed, request), path)
         elif name == "netcdf":
-            report.write_data(report.data(result, request), path)
+            report.write_data(computed, request, path)
         else:
-            draw(report, result, request, path)
+            draw(report, computed, request, path)
 
 
-def draw(report: Report, result: Any, request: Request, path: Path) -> None:
+def draw(report: Report, computed: Any, request: Request, path: Path) -> None:
     """Write the figure of a result, its animation or its tiles."""
     from rocking import plot
 
     if path.suffix.lower() in FILMS:
-        plot.animation(result, path, request.block)
+        plot.animation(computed, path, request.block)
     elif path.name == TILES.page:
-        plot.tiles(result, path.parent, request.block)
+        plot.tiles(computed, path.parent, request.block)
     else:
-        plot.save(report.figure(plot, result, request), path)
+        plot.save(report.drawn(plot, computed, request), path)
 
 
 @contextmanager
@@ -238,7 +252,7 @@ def show(report: Report, result: Any, request: Request, paths: Sequence[Path]) -
     """Print the result as a table or as JSON, and the paths of the files."""
     if request.options.get("json"):
         files = {"files": [str(path) for path in paths]}
-        print_json(report.record(result, request) | files | report.more(result, request))
+        print_json(report.record(result, request) | report.more(result, request) | files)
     else:
         print_table(report.text(result, request), paths)
 
@@ -270,12 +284,3 @@ def aligned(rows: Sequence[Row]) -> Iterator[str]:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         yield "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-
-
-def finite(value: Any) -> Any:
-    """Replace infinities and NaN by None, because JSON has no such numbers."""
-    if isinstance(value, dict):
-        return {name: finite(part) for name, part in value.items()}
-    if isinstance(value, list):
-        return [finite(part) for part in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-import attrs
 import numpy as np
 
 from rocking.cli.output import WARNING, Row
@@ -14,8 +13,7 @@ from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import Pulse
 from rocking.model.quantity import IN_SI
-from rocking.model.share import Share
-from rocking.model.system import System, angle_doubt, quantities
+from rocking.model.system import System, angle_doubt
 from rocking.model.text import counted
 from rocking.model.verdict import Verdict
 
@@ -119,27 +117,6 @@ def state_in_si(state: Any, block: Block) -> str:
     return f"{in_si('angle', state.angle, block)}, {in_si('velocity', state.velocity, block)}"
 
 
-def input_record(result: Motion | Verdict | LyapunovSpectrum) -> dict[str, Any]:
-    """Return the system and the initial state as a JSON object."""
-    return system_record(result.system) | {"start": attrs.asdict(result.start)}
-
-
-def system_record(system: System) -> dict[str, Any]:
-    """Return the system as a JSON object."""
-    values = quantities(system)
-    kind = {"pulse": system.forcing.kind} if isinstance(system.forcing, Pulse) else {}
-    alone = kind | {name: values[name] for name in values if not name.startswith("brace_")}
-    return alone | {"braces": None if system.braces is None else attrs.asdict(system.braces)}
-
-
-def peak_in_si(result: Motion | Verdict, block: Block) -> dict[str, float]:
-    """Return the largest angle and the displacement of the top in SI as a JSON object."""
-    return {
-        "peak_deg": float(block.degrees(result.peak)),
-        "peak_top_displacement_m": float(block.top_displacement(result.peak)),
-    }
-
-
 def size_record(block: Block) -> dict[str, float]:
     """Return the size of a block and its units of angle and time as a JSON object."""
     return {
@@ -160,21 +137,6 @@ def survey_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
         elif name in data.attrs:
             entries[each.key] = float(each.of(block, data.attrs[name]))
     return size_record(block) | entries
-
-
-def system_in_si(system: System, block: Block) -> dict[str, Any]:
-    """Return the block and its base motion in SI as a JSON object."""
-    if isinstance(system.forcing, Pulse):
-        pulse = system.forcing
-        size, length = pulse.amplitude, {"duration_s": IN_SI["period"].of(block, pulse.span)}
-    else:
-        size = system.periodic.amplitude
-        length = {"period_s": IN_SI["period"].of(block, system.periodic.period)}
-    return size_record(block) | {
-        "acceleration_m_per_s2": IN_SI["amplitude"].of(block, size),
-        **length,
-        "restitution_is_housners": block.has_housner_restitution,
-    }
 
 
 def equation(critical_angle: float, *, full: bool, braced: bool = False) -> str:
@@ -226,20 +188,6 @@ def warning_lines(sentences: Iterable[str]) -> list[str]:
 def with_warnings(entries: dict[str, Any], sentences: Sequence[str]) -> dict[str, Any]:
     """Return the entries about a block in JSON, with the warnings about it."""
     return {"block": entries, "warnings": list(sentences)}
-
-
-def share_record(share: Share) -> dict[str, Any]:
-    """Return a fraction with its interval as a JSON object."""
-    return {name: getattr(share, name) for name in ("value", "low", "high", "count", "of", "unknown")}
-
-
-def multiplier_columns(multipliers: np.ndarray) -> dict[str, np.ndarray]:
-    """Return Floquet multipliers, shape (n, 2), as columns of real and imaginary parts."""
-    return {
-        f"multiplier_{number + 1}_{part}": getattr(multipliers[:, number], part)
-        for number in (0, 1)
-        for part in ("real", "imag")
-    }
 
 
 def undecided(count: int) -> Iterator[str]:

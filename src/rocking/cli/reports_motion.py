@@ -10,32 +10,27 @@ import attrs
 import numpy as np
 
 from rocking.cli.options import InvalidInput, option
-from rocking.cli.output import Report, Row, Text, columns
+from rocking.cli.output import Report, Row, Text
 from rocking.cli.reports import (
     angle_warning,
     equation,
     in_si,
-    input_record,
     input_rows,
     origin,
-    peak_in_si,
     reach,
-    size_record,
     state_in_si,
-    system_in_si,
     warning_lines,
 )
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.system import State, System
+from rocking.model.table import headed
 from rocking.model.text import counted, ordinal
 from rocking.model.verdict import Outcome, Verdict
 from rocking.motion.motion import has_cycles
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from rocking.cli.inputs import Request
     from rocking.motion.motion import Motion
 
@@ -75,7 +70,7 @@ def tables(motion: Motion, request: Request) -> Iterator[dict[str, Any]]:
     """Yield tables (columns by heading) of limited length, so that memory does not grow with the motion.
 
     There are 100 rows per cycle, or 100 rows of a motion that ends earlier. Under a sampled base acceleration there is a row
-    per sample at least. With a block, the quantities are repeated in SI.
+    per sample at least. With a block, the units are SI.
     """
     from rocking.motion.motion import end_shown, sample_step
 
@@ -85,15 +80,10 @@ def tables(motion: Motion, request: Request) -> Iterator[dict[str, Any]]:
     for first in range(0, count, ROWS_AT_ONCE):
         time = np.minimum(np.arange(first, min(first + ROWS_AT_ONCE, count)) * step, end)
         angle, velocity = motion.at(time)
-        table = columns({"time": time, "angle": angle, "velocity": velocity}, block)
+        table = headed({"time": time, "angle": angle, "velocity": velocity}, block)
         if block is not None:
             table["top_displacement [m]"] = block.top_displacement(angle)
         yield table
-
-
-def data(motion: Motion, request: Request) -> xr.Dataset:
-    """Return the dataset of a motion, with units and parameters."""
-    return motion.to_xarray(block=request.block)
 
 
 # Simulation.
@@ -151,50 +141,18 @@ def cut_note(motion: Motion, end: str) -> str:
     return "" if motion.record == "all" else f" (without the last ones of chattering before {end})"
 
 
-def motion_record(motion: Motion, _: Request) -> dict[str, Any]:
-    """Return the summary as a JSON object."""
-    return {
-        "outcome": str(motion.outcome),
-        "overturning": None if motion.overturning is None else attrs.asdict(motion.overturning),
-        **input_record(motion),
-        "cycles": motion.cycles,
-        "duration": motion.duration,
-        "impacts": motion.impacts,
-        "brace_hits": motion.brace_hits,
-        "impacts_cut_short": motion.record != "all",
-        "peak": motion.peak,
-        **({} if has_cycles(motion) else closeness(motion)),
-        "final": attrs.asdict(motion.final),
-    }
-
-
-def motion_in_si(motion: Motion, request: Request) -> dict[str, Any]:
-    """Return the block, its base motion, its largest angle and the validity report as a JSON object; empty without a block."""
+def motion_validity(motion: Motion, request: Request) -> dict[str, Any]:
+    """Return the validity report as a JSON object; empty without a block."""
     block = request.block
     if block is None:
         return {}
-    entries = system_in_si(motion.system, block) | peak_in_si(motion, block)
-    return {"block": entries, "validity": validity_record(motion, block)}
-
-
-def closeness(motion: Motion) -> dict[str, Any]:
-    """Return how close a motion came to another outcome as a JSON object; no number if the block never moves."""
-    moved = not math.isnan(motion.margin)
     return {
-        "margin": motion.margin if moved else None,
-        "margin_time": motion.margin_time if moved else None,
-        "certified": motion.certified,
+        "peak_top_displacement_m": float(block.top_displacement(motion.peak)),
+        "validity": validity_record(motion, block),
     }
 
 
-SIMULATE = Report(
-    motion_text,
-    motion_record,
-    figure=lambda plot, motion, request: plot.overview(motion, request.block),
-    tables=tables,
-    data=data,
-    more=motion_in_si,
-)
+SIMULATE = Report(motion_text, more=motion_validity, rows=tables)
 
 
 # Validity of the model.
@@ -386,48 +344,28 @@ def margin_text(motion: Motion, block: Block) -> str:
     return f"{motion.margin:.4g}: at t = {block.seconds(motion.margin_time):.4g} s the block {how}"
 
 
-def record_record(motion: Motion, request: Request) -> dict[str, Any]:
-    """Return the summary as a JSON object."""
-    block, ground = block_of(request), request.records
-    overturning = motion.overturning
-    return {
-        "outcome": str(motion.outcome),
-        "model": "slender" if motion.system.critical_angle is None else "full",
-        "certified": motion.certified,
-        "overturning_s": None if overturning is None else float(block.seconds(overturning.time)),
-        "ground_motion": {
-            "name": ground.name,
-            "component": ground.component,
-            "file": None if ground.file is None else attrs.asdict(ground.file),
-            "pga_agrees": None if ground.file is None else ground.file.pga_agrees,
-            "samples": ground.acceleration.size,
-            "step_s": ground.step,
-            "duration_s": ground.duration,
-            "baseline": ground.baseline,
-            "factor": ground.factor,
-            "pga_m_per_s2": ground.pga,
-            "pgv_m_per_s": ground.pgv,
-            "pgd_m": ground.pgd,
-            "drift_m": float(ground.displacement[-1]),
-            "arias_intensity_m_per_s": ground.arias_intensity,
-            "significant_duration_s": ground.significant_duration,
-        },
-        "block": size_record(block)
-        | {"inertia_ratio": block.inertia_ratio, "restitution_is_housners": block.has_housner_restitution},
-        **input_record(motion),
-        "duration": motion.duration,
-        "duration_s": float(block.seconds(motion.duration)),
-        "impacts": motion.impacts,
-        "brace_hits": motion.brace_hits,
-        "impacts_cut_short": motion.record != "all",
-        "peak": motion.peak,
-        **peak_in_si(motion, block),
-        "margin": motion.margin,
-        "margin_time_s": float(block.seconds(motion.margin_time)),
-        "final": attrs.asdict(motion.final),
-        "validity": validity_record(motion, block),
-        "warnings": [*request.warnings, *undecided(motion)],
+def record_more(motion: Motion, request: Request) -> dict[str, Any]:
+    """Return the ground motion, the validity report and the warnings as JSON objects."""
+    ground = request.records
+    facts = {
+        "name": ground.name,
+        "component": ground.component,
+        "file": None if ground.file is None else attrs.asdict(ground.file),
+        "pga_agrees": None if ground.file is None else ground.file.pga_agrees,
+        "samples": ground.acceleration.size,
+        "step_s": ground.step,
+        "duration_s": ground.duration,
+        "baseline": ground.baseline,
+        "factor": ground.factor,
+        "pga_m_per_s2": ground.pga,
+        "pgv_m_per_s": ground.pgv,
+        "pgd_m": ground.pgd,
+        "drift_m": float(ground.displacement[-1]),
+        "arias_intensity_m_per_s": ground.arias_intensity,
+        "significant_duration_s": ground.significant_duration,
     }
+    warnings = [*request.warnings, *undecided(motion)]
+    return {"ground_motion": facts, **motion_validity(motion, request), "warnings": warnings}
 
 
-RECORD = Report(record_text, record_record, figure=record_figure, tables=tables, data=data)
+RECORD = Report(record_text, figure=record_figure, more=record_more, rows=tables)

@@ -6,23 +6,19 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
-import attrs
 import numpy as np
 
-from rocking.cli.output import Report, Row, Text
+from rocking.cli.output import Report, Row, Table, Text, write_dataset
 from rocking.cli.reports import (
     MAX_ROWS,
     axes_record,
     equation,
     equation_line,
     shape_warnings,
-    size_record,
     survey_warnings,
     undecided,
     warning_lines,
 )
-from rocking.model.block import block_attributes
-from rocking.model.quantity import IN_SI, QUANTITIES
 from rocking.model.record_results import Fragility, OverturningSet, Sensitivity, limit_name
 from rocking.model.record_set import RecordSet
 from rocking.model.text import counted, percent, percent_with_ends
@@ -38,11 +34,6 @@ def with_equation(result: Any, rows: Iterable[Row], title: str, sentences: Itera
     """Return the text of a survey of one block, with the equation of motion and the warnings."""
     line = equation_line(result.block, result.dataset.attrs["model"])
     return Text(title, rows, [line, *warning_lines(sentences)])
-
-
-def block_data(result: Any, _: Request) -> xr.Dataset:
-    """Return the dataset with the block in its attributes."""
-    return result.dataset.assign_attrs(block_attributes(result.block))
 
 
 # Rocking spectrum.
@@ -145,19 +136,11 @@ def largest_record(data: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def spectrum_tables(data: xr.Dataset, _: Request) -> Iterator[dict[str, np.ndarray]]:
-    """Yield columns by heading, with units: the record, the quantities that vary, and the resultss."""
+def spectrum_tables(data: xr.Dataset, _: Request) -> Iterator[Table]:
+    """Yield the table of the runs, with the largest angle also in rad."""
     for table in tables(data.drop_vars(["pga", "frequency_parameter"], errors="ignore")):
-        headed: dict[str, np.ndarray] = {}
-        if "record" in table:
-            number = table.pop("record").astype(int)
-            headed = {"record": number, "name": data["name"].values[number]}
-        for name, column in table.items():
-            unit = QUANTITIES[name].unit if name in IN_SI else data[name].attrs.get("units", "1")
-            headed[name if unit in ("1", "") else f"{name} [{unit}]"] = column
-        slenderness = table["slenderness"] if "slenderness" in table else data.attrs["slenderness"]
-        headed["peak [deg]"] = table["peak"] * np.degrees(slenderness)
-        yield headed
+        slenderness = table.get("slenderness [rad]", data.attrs.get("slenderness"))
+        yield table | {"peak [rad]": table["peak [theta_cr]"] * slenderness}
 
 
 def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
@@ -188,10 +171,10 @@ def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
 
 SPECTRUM = Report(
     spectrum_text,
-    spectrum_record,
     figure=lambda plot, data, _: plot.rocking_spectrum(data),
-    tables=spectrum_tables,
-    data=lambda data, _: data.load(),
+    rows=spectrum_tables,
+    entries=spectrum_record,
+    netcdf=lambda data, _, path: write_dataset(data.load(), path),
 )
 
 
@@ -272,51 +255,8 @@ def fit_text(value: float, low: float, high: float) -> str:
     return f"{value:.3g} ({low:.3g}–{'∞' if math.isinf(high) else f'{high:.3g}'})"
 
 
-def fragility_tables(result: Fragility, _: Request) -> Iterator[dict[str, Any]]:
-    """Yield one table for each limit."""
-    data = result.dataset
-    for number, limit in enumerate(data.limit.values.tolist()):
-        yield {
-            "limit [theta_cr]": np.full(data.sizes["scale"], limit),
-            "limit [deg]": np.full(data.sizes["scale"], result.block.degrees(limit)),
-            level_heading(result, "[", "]"): data.scale.values,
-        } | {name: data[name].values[number] for name in FRAGILITY_COLUMNS}
-
-
-def fragility_record(result: Fragility, _: Request) -> dict[str, Any]:
-    """Return the result as a JSON object; an infinite limit is null."""
-    data = result.dataset
-    curves = [
-        attrs.asdict(fit)
-        | {"limit_degrees": float(result.block.degrees(fit.limit))}
-        | {name: data[name].values[number].tolist() for name in FRAGILITY_COLUMNS}
-        for number, fit in enumerate(result.fits)
-    ]
-    return {
-        "block": {
-            "height_m": result.block.height,
-            "width_m": result.block.width,
-            "restitution": result.block.restitution,
-        },
-        "records": data.name.values.tolist(),
-        "records_sha256": data.attrs["records_sha256"],
-        "samples": data.sizes.get("sample", 1),
-        "undecided": int((data.certified == 0).sum()),
-        "model": data.attrs["model"],
-        "intensity": data.attrs["intensity"],
-        "unit": data.scale.attrs["units"],
-        "levels": data.scale.values.tolist(),
-        "rocking": data.rocking.values.tolist(),
-        "curves": curves,
-    }
-
-
 FRAGILITY = Report(
     fragility_text,
-    fragility_record,
-    figure=lambda plot, result, _: plot.fragility(result),
-    tables=fragility_tables,
-    data=lambda result, _: result.dataset,
     more=lambda result, request: {"warnings": list(fragility_warnings(result, request))},
 )
 
@@ -358,27 +298,9 @@ def changes(result: Sensitivity) -> Iterator[tuple[Any, ...]]:
     return zip(*(result.dataset[name].values.tolist() for name in SENSITIVITY_COLUMNS), strict=True)
 
 
-def sensitivity_record(result: Sensitivity, request: Request) -> dict[str, Any]:
-    """Return the result as a JSON object."""
-    data = result.dataset
-    return {
-        "block": size_record(result.block) | {"restitution": result.block.restitution},
-        "model": data.attrs["model"],
-        "intensity": data.attrs["intensity"],
-        "levels": data.scale.values.tolist(),
-        "records": data.name.values.tolist(),
-        "records_sha256": data.attrs["records_sha256"],
-        "overturned": int(data.overturned.sum()),
-        "changes": [dict(zip(SENSITIVITY_COLUMNS, each, strict=True)) for each in changes(result)],
-        "warnings": list(sensitivity_warnings(result, request)),
-    }
-
-
 SENSITIVITY = Report(
     sensitivity_text,
-    sensitivity_record,
-    tables=lambda result, _: [{name: result.dataset[name].values for name in SENSITIVITY_COLUMNS}],
-    data=block_data,
+    more=lambda result, request: {"warnings": list(sensitivity_warnings(result, request))},
 )
 
 
@@ -425,54 +347,7 @@ def set_rows(result: OverturningSet) -> Iterator[Row]:
         yield (f"and {left} more (all of them with --json, --netcdf or --plot)", "", "", "", "")
 
 
-def switches(result: OverturningSet) -> dict[str, Any]:
-    """Return the columns of the switches, with units in the headings of levels."""
-    unit, rows = result.measure.unit or "1", result.switches
-    levels = {"level", "certified_below", "certified_above"}
-    names = np.array(result.records.names)[rows["record"]]
-    headed = {f"{name} [{unit}]" if name in levels else name: rows[name] for name in rows.dtype.names or ()}
-    return {"name": names} | headed
-
-
-def set_record(result: OverturningSet, request: Request) -> dict[str, Any]:
-    """Return the result as a JSON object."""
-    block, data, rows = result.block, result.dataset, result.switches
-    return {
-        "intensity": data.attrs["intensity"],
-        "unit": result.measure.unit,
-        "levels": {
-            "start": float(result.scales[0]),
-            "stop": float(result.scales[-1]),
-            "count": int(result.scales.size),
-        },
-        "spacing": result.spacing,
-        "block": size_record(block)
-        | {"restitution": block.restitution, "inertia_ratio": block.inertia_ratio},
-        "model": data.attrs["model"],
-        "angle": data.attrs["angle"],
-        "polarity": data.attrs["polarity"],
-        "records_sha256": data.attrs["records_sha256"],
-        "records": [
-            {
-                "name": name,
-                "lowest": float(result.lowest[number]),
-                "share": float(result.share[number]),
-                "intervals": result.intervals(number).tolist(),
-                "switches": [
-                    dict(zip(rows.dtype.names or (), each, strict=True))
-                    for each in rows[rows["record"] == number].tolist()
-                ],
-            }
-            for number, name in enumerate(result.records.names)
-        ],
-        "warnings": list(set_warnings(result, request)),
-    }
-
-
 OVERTURNING_SET = Report(
     set_text,
-    set_record,
-    figure=lambda plot, result, _: plot.overturning_set(result),
-    tables=lambda result, _: [switches(result)],
-    data=block_data,
+    more=lambda result, request: {"warnings": list(set_warnings(result, request))},
 )

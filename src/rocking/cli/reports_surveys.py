@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-import attrs
 import numpy as np
 
-from rocking.cli.options import START, SURVEYED
-from rocking.cli.output import Report, Row, Text, columns, with_block, with_fixed
+from rocking.cli.options import SURVEYED
+from rocking.cli.output import Report, Row, Text, with_block, write_dataset
 from rocking.cli.reports import (
     MAX_ROWS,
     angle_warning,
     axes_record,
     block_warnings,
     in_si,
-    share_record,
     survey_in_si,
-    system_in_si,
-    system_record,
     system_rows,
     undecided,
     warning_lines,
@@ -28,8 +24,8 @@ from rocking.cli.reports import (
 )
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
-from rocking.model.quantity import AMPLITUDE, IN_SI
-from rocking.model.survey_results import BasinMap, OverturningCurve, SafeBasin, UncertaintyExponent
+from rocking.model.quantity import IN_SI
+from rocking.model.survey_results import BasinMap, OverturningCurve, SafeBasin
 from rocking.model.system import System
 from rocking.model.text import counted, percent
 from rocking.model.verdict import Criterion, Outcome
@@ -110,24 +106,17 @@ def map_record(data: xr.Dataset, _: Request) -> dict[str, Any]:
     }
 
 
-def map_tables(data: xr.Dataset, request: Request) -> Iterator[dict[str, Any]]:
-    """Yield one row per point: its system and all variables, flags as words; with a block also in SI."""
-    for table in tables(data):
-        yield columns(with_fixed(table, data.kind.dims, data.attrs), request.block)
-
-
 MAP = Report(
     map_text,
-    map_record,
     figure=lambda plot, data, request: plot.parametric_map(
         data,
         block=request.block,
         **{name: request.options[name] for name in DRAWN if name in request.options},
     ),
-    tables=map_tables,
-    data=lambda data, request: with_block(data, request.block),
     more=data_in_si,
-    write_data=to_netcdf,
+    rows=lambda data, request: tables(data, request.block),
+    entries=map_record,
+    netcdf=lambda data, request, path: to_netcdf(with_block(data, request.block), path),
 )
 
 
@@ -187,70 +176,13 @@ def tangled_from(system: System) -> float | None:
     return tangency if tangency < forcing.amplitude < math.hypot(1.0, forcing.frequency) else None
 
 
-def basins_tables(result: BasinMap, request: Request) -> Iterator[dict[str, Any]]:
-    """Yield columns by heading: the initial state, its attractor as a number and by name, and all other variables."""
-    names = np.array([each.name for each in result.attractors])
-    # Random initial states lie along one dimension, and their angles and velocities are no axes.
-    data = result.dataset.reset_coords([name for name in START if name not in result.dataset.dims])
-    data["attractor"] = data["attractor"].drop_attrs()
-    for table in tables(data):
-        first = {name: table[name] for name in (*START, "attractor")}
-        others = {name: column for name, column in table.items() if name not in (*first, "sample")}
-        row = first | {"name": names[first["attractor"]]} | others
-        yield columns(row, request.block)
-
-
-def basins_record(result: BasinMap, _: Request) -> dict[str, Any]:
-    """Return the result as a JSON object."""
-    return {
-        **system_record(result.system),
-        "starts": result.fractions[0].of,
-        "attractors": [
-            {
-                "name": each.name,
-                "kind": str(each.kind),
-                "fraction": share_record(share),
-                "response_period": each.verdict.period,
-                "impacts_per_period": each.verdict.impacts_per_period,
-                "symmetric": each.verdict.symmetric,
-                "start": attrs.asdict(each.verdict.start),
-            }
-            for each, share in zip(result.attractors, result.fractions, strict=True)
-        ],
-        "uncertainty_exponent": exponent_record(result.uncertainty_exponent),
-        "attractor_exponent": exponent_record(result.attractor_exponent),
-    }
-
-
-def exponent_record(exponent: UncertaintyExponent | None) -> dict[str, Any] | None:
-    """Return an exponent with its interval as a JSON object."""
-    if exponent is None:
-        return None
-    return {name: getattr(exponent, name) for name in ("value", "low", "high", "misfit", "meaning")}
-
-
-def basins_in_si(basins: BasinMap, request: Request) -> dict[str, Any]:
-    """Return the block and the warnings as a JSON object; empty without a block."""
-    block = request.block
-    if block is None:
-        return {}
-    return with_warnings(system_in_si(basins.system, block), basins_warnings(basins, block))
-
-
 BASINS = Report(
     basins_text,
-    basins_record,
-    figure=lambda plot, basins, request: plot.basins(basins, block=request.block),
-    tables=basins_tables,
-    data=lambda basins, request: with_block(basins.dataset, request.block),
-    more=basins_in_si,
+    more=lambda basins, request: {"warnings": basins_warnings(basins, request.block)},
 )
 
 
 # Safe basin.
-
-
-KEY = IN_SI["amplitude"].key
 
 
 THRESHOLDS = {"heteroclinic": "exact tangency A*", "melnikov": "Melnikov's A_M"}
@@ -290,70 +222,9 @@ def tangency_lines(result: SafeBasin, block: Block | None) -> Iterator[str]:
         yield f"{text} = {in_si('amplitude', getattr(result, f'{name}_amplitude'), block)}"
 
 
-def safe_tables(result: SafeBasin, request: Request) -> Iterator[dict[str, Any]]:
-    """Yield one row per amplitude; with a block also in SI."""
-    data = result.dataset
-    for table in tables(data):
-        yield columns(with_fixed(table, ["amplitude"], data.attrs) | drawn(table, data), request.block)
-
-
-def drawn(table: Mapping[str, Any], data: xr.Dataset) -> dict[str, Any]:
-    """Return the columns of the random initial states: their ranges, number and seed."""
-    ranges = {
-        f"{name}_{end}": bound
-        for name in START
-        for end, bound in zip(("low", "high"), data.attrs[f"{name}_range"], strict=True)
-    }
-    values = ranges | {name: data.attrs[name] for name in ("samples", "seed")}
-    return {name: np.full(len(table["amplitude"]), value) for name, value in values.items()}
-
-
-def thresholds_in_si(result: SafeBasin, block: Block | None) -> dict[str, float]:
-    """Return the thresholds of the amplitude in SI, by name; none without a block."""
-    if block is None:
-        return {}
-    return {
-        f"{name}_{KEY}": float(block.acceleration(getattr(result, f"{name}_amplitude")))
-        for name in THRESHOLDS
-    }
-
-
-def safe_record(result: SafeBasin, request: Request) -> dict[str, Any]:
-    """Return the result as a JSON object."""
-    data, block = result.dataset, request.block
-    fractions = [
-        {
-            "amplitude": float(amplitude),
-            **({} if block is None else {KEY: IN_SI["amplitude"].of(block, amplitude)}),
-            "safe": share_record(share),
-            "undetermined": float(unknown),
-        }
-        for amplitude, share, unknown in zip(
-            data.amplitude.values, result.shares, data.undetermined.values, strict=True
-        )
-    ]
-    return {
-        **{name: data.attrs[name] for name in SURVEYED if name in data.attrs},
-        "angle": data.attrs["angle_range"],
-        "velocity": data.attrs["velocity_range"],
-        "samples": data.attrs["samples"],
-        "seed": data.attrs["seed"],
-        "heteroclinic_amplitude": result.heteroclinic_amplitude,
-        "melnikov_amplitude": result.melnikov_amplitude,
-        **thresholds_in_si(result, block),
-        "fractions": fractions,
-    }
-
-
 SAFE_BASIN = Report(
     safe_text,
-    safe_record,
-    figure=lambda plot, result, request: plot.safe_basin(result, block=request.block),
-    tables=safe_tables,
-    data=lambda result, request: with_block(result.dataset, request.block).assign_attrs(
-        thresholds_in_si(result, request.block)
-    ),
-    more=lambda result, request: data_in_si(result.dataset, request),
+    more=lambda result, request: {"warnings": data_warnings(result.dataset, request.block)},
 )
 
 
@@ -364,7 +235,6 @@ LEVELS = ("lowest", "resolution", "survived_up_to")
 """Variables of the result that are amplitudes."""
 
 
-FIXED = ("period", "frequency", "restitution", "critical_angle")
 """Quantities of a system that are attributes of the result if they do not vary; the phase of the base varies in every row."""
 
 
@@ -438,87 +308,9 @@ def number_text(number: float, digits: int = 6) -> str:
     return "–" if math.isnan(number) else f"{number:.{digits}g}"
 
 
-def level_key(level: str) -> str:
-    """Return the key of an amplitude in SI."""
-    return f"{level}_{IN_SI['amplitude'].key}"
-
-
-def overturning_tables(result: OverturningCurve, request: Request) -> Iterator[dict[str, Any]]:
-    """Yield columns by heading: system of each row, then all variables; amplitudes with a block also in SI."""
-    data, unit = result.dataset, IN_SI["amplitude"]
-    over = [str(name) for name in data.lowest.dims]
-    grids = np.meshgrid(*(data[name].values for name in over), indexing="ij")
-    levels = {name: data[name].values.ravel() for name in LEVELS}
-    table: dict[str, Any] = {name: grid.ravel() for name, grid in zip(over, grids, strict=True)}
-    table |= {f"{name} [{AMPLITUDE.unit}]": level for name, level in levels.items()}
-    table |= {name: data[name].values.ravel() for name in ("lowest_phase", "surviving_above", "undetermined")}
-    table = with_fixed(table, over, {name: data.attrs[name] for name in FIXED if name in data.attrs})
-    block = request.block
-    in_si = (
-        {}
-        if block is None
-        else {f"{name}_{unit.heading}": unit.of(block, level) for name, level in levels.items()}
-    )
-    yield columns(table | in_si, block)
-
-
-def overturning_record(result: OverturningCurve, request: Request) -> dict[str, Any]:
-    """Return the result as a JSON object."""
-    data, block = result.dataset, request.block
-    over = [str(name) for name in data.lowest.dims]
-    amplitudes = data.amplitude.values
-    rows = [
-        {name: float(data[name].values[k]) for name, k in zip(over, index, strict=True)}
-        | {name: float(data[name].values[index]) for name in (*COLUMNS, "lowest_phase", "undetermined")}
-        for index in places(data)
-    ]
-    if block is not None:
-        for row in rows:
-            row |= {
-                IN_SI[name].key: float(IN_SI[name].of(block, row[name])) for name in over if name in IN_SI
-            }
-            row |= {level_key(name): IN_SI["amplitude"].of(block, row[name]) for name in LEVELS}
-    fixed = {name: data.attrs[name] for name in FIXED if name in data.attrs}
-    scanned = {"start": float(amplitudes[0]), "stop": float(amplitudes[-1]), "count": int(amplitudes.size)}
-    return {
-        **fixed,
-        "amplitude": scanned,
-        "phases": int(data.phase.size),
-        "curve": rows,
-    }
-
-
-def overturning_data(result: OverturningCurve, request: Request) -> xr.Dataset:
-    """Return the dataset; with a block, amplitudes also in SI."""
-    data, block, amplitude = result.dataset, request.block, IN_SI["amplitude"]
-    if block is None:
-        return data
-    levels = {
-        level_key(name): (
-            data[name].dims,
-            amplitude.of(block, data[name].values),
-            {"long_name": f"{data[name].attrs['long_name']}, in SI", "units": amplitude.units},
-        )
-        for name in LEVELS
-    }
-    return with_block(data.assign(levels), block)
-
-
-def overturning_in_si(result: OverturningCurve, request: Request) -> dict[str, Any]:
-    """Return the block, the quantities and the warnings as a JSON object; empty without a block."""
-    block = request.block
-    if block is None:
-        return {}
-    return with_warnings(survey_in_si(result.dataset, block), overturning_warnings(result, block))
-
-
 OVERTURNING = Report(
     overturning_text,
-    overturning_record,
-    figure=lambda plot, result, request: plot.overturning(result, block=request.block),
-    tables=overturning_tables,
-    data=overturning_data,
-    more=overturning_in_si,
+    more=lambda result, request: {"warnings": overturning_warnings(result, request.block)},
 )
 
 
@@ -598,10 +390,8 @@ def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
 
 OVERTURNING_SPECTRUM = Report(
     spectrum_text,
-    spectrum_record,
     figure=lambda plot, data, request: plot.overturning_spectrum(data, block=request.block),
-    tables=lambda data, request: (
-        columns(with_fixed(table, data.outcome.dims, data.attrs), request.block) for table in tables(data)
-    ),
-    data=lambda data, request: with_block(data.load(), request.block),
+    rows=lambda data, request: tables(data, request.block),
+    entries=spectrum_record,
+    netcdf=lambda data, request, path: write_dataset(with_block(data.load(), request.block), path),
 )

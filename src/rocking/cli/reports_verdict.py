@@ -6,33 +6,30 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-import attrs
 import numpy as np
 from attrs import frozen
 
 from rocking.cli.options import reworded
-from rocking.cli.output import Report, Row, Text, aligned, columns, with_block
+from rocking.cli.output import Report, Row, Text, aligned
 from rocking.cli.reports import (
     angle_warning,
     block_warnings,
     in_si,
-    input_record,
     input_rows,
-    multiplier_columns,
-    peak_in_si,
     reach,
-    system_in_si,
     system_rows,
     warning_lines,
-    with_warnings,
 )
 from rocking.cli.reports_motion import validity_lines, validity_motion, validity_record
 from rocking.model.block import Block
 from rocking.model.orbit import Mode
 from rocking.model.proof import Proof
-from rocking.model.system import System
+from rocking.model.result import Result, described
+from rocking.model.system import System, quantities
 from rocking.model.text import counted, plus_minus
 from rocking.model.verdict import Verdict
+from rocking.orbits.datasets import multipliers
+from rocking.response.lyapunov import dimension_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -86,50 +83,6 @@ def verdict_rows(verdict: Verdict, block: Block | None) -> Iterator[Row]:
     )
 
 
-def verdict_record(verdict: Verdict, _: Request) -> dict[str, Any]:
-    """Return the verdict as a JSON object; multipliers are pairs [real, imaginary]."""
-    orbit = verdict.orbit
-    return {
-        "kind": str(verdict.kind),
-        "evidence": attrs.asdict(verdict.evidence),
-        **input_record(verdict),
-        "response_period": verdict.period,
-        "impacts_per_period": verdict.impacts_per_period,
-        "brace_hits_per_period": verdict.brace_hits_per_period,
-        "symmetric": verdict.symmetric,
-        "multipliers": None if orbit is None else [[value.real, value.imag] for value in orbit.multipliers],
-        "exponent": verdict.exponent,
-        "exponent_error": verdict.exponent_error,
-        "superstable": verdict.superstable,
-        "peak": verdict.peak,
-        "steady_peak": verdict.steady_peak,
-        "transient": verdict.transient,
-        "cycles": verdict.cycles,
-        "events_computed": verdict.impacts,
-        "orbit": None
-        if orbit is None
-        else {"phase": orbit.phase, "residual": orbit.residual} | attrs.asdict(orbit.state),
-        "proof": None if orbit is None or orbit.proof is None else proof_record(orbit.proof),
-    }
-
-
-def verdict_in_si(verdict: Verdict, request: Request) -> dict[str, Any]:
-    """Return the block, its base motion, its largest angle and the validity report as a JSON object; empty without a block."""
-    block = request.block
-    if block is None:
-        return {}
-    over, motion = validity_motion(verdict)
-    entries = system_in_si(verdict.system, block) | peak_in_si(verdict, block)
-    return {"block": entries, "judged": over, "validity": validity_record(motion, block)}
-
-
-def proof_record(proof: Proof) -> dict[str, Any]:
-    """Return the proof as a JSON object; multipliers are [real, imaginary, radius]."""
-    entries = attrs.asdict(proof, filter=attrs.filters.exclude("system", "multipliers"))
-    discs = [[value.real, value.imag, radius] for value, radius in proof.multipliers or ()]
-    return entries | {"multipliers": discs or None}
-
-
 def accuracy(proof: Proof) -> str:
     """Return the largest radius of the multipliers."""
     return f"±{max((radius for _, radius in proof.multipliers or ()), default=0.0):.1e}"
@@ -156,12 +109,20 @@ def exponent_text(value: float, error: float | None, block: Block | None) -> tup
     return f"{text} per τ", in_seconds
 
 
-CLASSIFY = Report(
-    verdict_text,
-    verdict_record,
-    figure=lambda plot, verdict, request: plot.verdict(verdict, request.block),
-    more=verdict_in_si,
-)
+def verdict_validity(verdict: Verdict, request: Request) -> dict[str, Any]:
+    """Return the validity report as a JSON object, and the motion that it is about; empty without a block."""
+    block = request.block
+    if block is None:
+        return {}
+    over, motion = validity_motion(verdict)
+    return {
+        "peak_top_displacement_m": float(block.top_displacement(verdict.peak)),
+        "judged": over,
+        "validity": validity_record(motion, block),
+    }
+
+
+CLASSIFY = Report(verdict_text, more=verdict_validity)
 
 
 # Lyapunov exponents.
@@ -201,107 +162,45 @@ def per_second(spectrum: LyapunovSpectrum, block: Block) -> tuple[np.ndarray, np
     return spectrum.values * block.frequency_parameter, spectrum.errors * block.frequency_parameter
 
 
-def dimension_of(spectrum: LyapunovSpectrum) -> tuple[float, float] | None:
-    """Return the Kaplan–Yorke dimension and its error; None where there is none, or it is undecided."""
-    try:
-        return spectrum.kaplan_yorke
-    except ValueError:
-        return None
-
-
-def exponent_tables(spectrum: LyapunovSpectrum, request: Request) -> Iterator[dict[str, Any]]:
-    """Yield the running estimates as columns by heading; with a block also per second.
-
-    Exponents of −∞ have one row, that of all cycles.
-    """
-    block = request.block
-    history = final_estimate(spectrum) if spectrum.superstable else spectrum.history
-    rates = {
-        f"{name}_{number + 1}": history[f"{name}s"][:, number]
-        for number in (0, 1)
-        for name in ("value", "error")
-    }
-    table = {"cycles": history["cycles"]} | {f"{name} [alpha]": rate for name, rate in rates.items()}
-    in_si = (
-        {}
-        if block is None
-        else {f"{name} [1/s]": rate * block.frequency_parameter for name, rate in rates.items()}
-    )
-    yield table | in_si
-
-
-def final_estimate(spectrum: LyapunovSpectrum) -> dict[str, np.ndarray]:
-    """Return the result after all cycles as one row of running estimates."""
-    return {
-        "cycles": np.array([spectrum.cycles]),
-        "values": spectrum.values[np.newaxis],
-        "errors": spectrum.errors[np.newaxis],
-    }
-
-
-def exponent_data(spectrum: LyapunovSpectrum, request: Request) -> xr.Dataset:
-    """Return the dataset; with a block, each variable also per second."""
-    block, data = request.block, spectrum.to_xarray()
-    if block is not None:
-        rates = {
-            f"{name}_per_s": (
-                each.dims,
-                each.values * block.frequency_parameter,
-                {"long_name": each.attrs["long_name"].replace("per tau", "per second"), "units": "s-1"},
-            )
-            for name, each in data.data_vars.items()
-        }
-        data = data.assign(rates)
-    return with_block(data, block)
-
-
-def exponent_record(spectrum: LyapunovSpectrum, _: Request) -> dict[str, Any]:
-    """Return the exponents as a JSON object; an exponent of −∞ is null."""
-    return {
-        **input_record(spectrum),
-        "exponents": spectrum.values.tolist(),
-        "errors": [float(error) for error in spectrum.errors],
-        "bounded": spectrum.bounded,
-        "superstable": spectrum.superstable,
-        "kaplan_yorke": dimension_of(spectrum),
-        "cycles": spectrum.cycles,
-        "transient": spectrum.transient,
-        "impacts": spectrum.impacts,
-        "brace_hits": spectrum.brace_hits,
-    }
-
-
-def exponents_in_si(spectrum: LyapunovSpectrum, request: Request) -> dict[str, Any]:
-    """Return the block and the exponents per second as a JSON object; empty without a block."""
-    block = request.block
-    if block is None:
-        return {}
-    values, errors = per_second(spectrum, block)
-    rates = {"exponents_per_s": values.tolist(), "errors_per_s": errors.tolist()}
-    return {"block": system_in_si(spectrum.system, block) | rates}
-
-
-LYAPUNOV = Report(
-    exponents_text,
-    exponent_record,
-    figure=lambda plot, spectrum, request: plot.convergence(spectrum, block=request.block),
-    tables=exponent_tables,
-    data=exponent_data,
-    more=exponents_in_si,
-)
+LYAPUNOV = Report(exponents_text, table="cycles_direction")
 
 
 # Symmetric modes.
 
 
 @frozen
-class Modes:
+class Modes(Result):
     """Symmetric (1, n) modes of a system, and the amplitudes that bound them."""
 
     system: System
     n: int
     modes: list[Mode]
     amplitudes: dict[str, float]
+
+    def _data(self) -> xr.Dataset:
+        import xarray as xr
+
+        modes = self.modes
+
+        def column(text: str, values: list[Any], unit: str = "1") -> tuple[str, list[Any], dict[str, str]]:
+            return "mode", values, {"long_name": text} | ({"units": unit} if unit else {})
+
+        variables = {
+            "velocity": column("speed after the impact", [each.velocity for each in modes]),
+            "phase": column("forcing phase at the impact", [each.phase for each in modes], "rad"),
+            "trace": column("trace of the half-cycle map", [each.trace for each in modes]),
+            **multipliers("mode", np.array([each.multipliers for each in modes], complex).reshape(-1, 2)),
+            "peak": column("largest angle", [math.nan if each.peak is None else each.peak for each in modes]),
+            "stability": column("stability", [str(each.stability) for each in modes], ""),
+            "admissible": column("whether the mode is a motion", [each.admissible for each in modes], ""),
+        }
+        names = {"mode": column("the faster or the slower mode", list(NAMES[: len(modes)]), "")}
+        attributes = described("Symmetric modes") | quantities(self.system) | {"n": self.n}
+        return xr.Dataset(
+            variables,
+            names,
+            attributes | {f"{name}_amplitude": each for name, each in self.amplitudes.items()},
+        )
 
     def __str__(self) -> str:
         name, amplitude, begins = (
@@ -425,57 +324,8 @@ def peak_text(angle: float, block: Block | None) -> str:
     return "" if block is None else f" = {reach(angle, block)}"
 
 
-def modes_tables(result: Modes, request: Request) -> Iterator[dict[str, Any]]:
-    """Yield the modes as columns by heading, with a block also in SI; the peak of an inadmissible mode is NaN."""
-    modes = result.modes
-    multipliers = np.array([mode.multipliers for mode in modes], complex).reshape(-1, 2)
-    values = {
-        "mode": np.array(NAMES[: len(modes)]),
-        "velocity": np.array([mode.velocity for mode in modes]),
-        "phase": np.array([mode.phase for mode in modes]),
-        "trace": np.array([mode.trace for mode in modes]),
-        **multiplier_columns(multipliers),
-        "peak": np.array([math.nan if mode.peak is None else mode.peak for mode in modes]),
-        "stability": np.array([str(mode.stability) for mode in modes]),
-        "admissible": np.array([mode.admissible for mode in modes]),
-    }
-    yield columns(values, request.block)
-
-
-def modes_record(modes: Modes, _: Request) -> dict[str, Any]:
-    """Return the modes as a JSON object; multipliers are pairs [real, imaginary], infinite numbers null."""
-    forcing = modes.system.harmonic
-    return {
-        "amplitude": forcing.amplitude,
-        "period": forcing.period,
-        "frequency": forcing.frequency,
-        "restitution": modes.system.restitution,
-        "n": modes.n,
-        **{f"{name}_amplitude": value for name, value in modes.amplitudes.items()},
-        "modes": [
-            {
-                "velocity": mode.velocity,
-                "phase": mode.phase,
-                "trace": mode.trace,
-                "multipliers": [[value.real, value.imag] for value in mode.multipliers],
-                "stability": mode.stability,
-                "stable": mode.stable,
-                "admissible": mode.admissible,
-                "peak": mode.peak,
-            }
-            for mode in modes.modes
-        ],
-    }
-
-
-def modes_in_si(modes: Modes, request: Request) -> dict[str, Any]:
-    """Return the block and the warnings as a JSON object; empty without a block."""
-    block = request.block
-    return (
-        {}
-        if block is None
-        else with_warnings(system_in_si(modes.system, block), modes_warnings(modes, block))
-    )
-
-
-MODES = Report(modes_text, modes_record, figure=modes_figure, tables=modes_tables, more=modes_in_si)
+MODES = Report(
+    modes_text,
+    figure=modes_figure,
+    more=lambda modes, request: {"warnings": modes_warnings(modes, request.block)},
+)

@@ -316,7 +316,11 @@ def _density(block: Any, density: Any) -> Any:
 TIME = SECONDS._replace(name="time", key="time_s", of=_seconds)
 PER_SECOND = SI("exponent", "1/s", "exponent_per_s", "s-1", _per_second)
 RESULTS: tuple[tuple[str, SI | None, tuple[str, ...]], ...] = (
-    ("1/alpha", TIME, ("time", "event_time", "margin_time", "overturning_time", "duration")),
+    (
+        "1/alpha",
+        TIME,
+        ("time", "event_time", "margin_time", "overturning_time", "duration", "pulse_duration", "step"),
+    ),
     ("alpha", PER_SECOND, ("exponent", "exponent_error", "running_exponent", "running_exponent_error")),
     (
         "theta_cr",
@@ -331,7 +335,7 @@ RESULTS: tuple[tuple[str, SI | None, tuple[str, ...]], ...] = (
                 "limit",
                 "line_amplitude",
             ),
-            *("mean_angle", "mean_angle_error", "angle_low", "angle_high", "angle_range"),
+            *("mean_angle", "mean_angle_error"),
             *(
                 "start_angle",
                 "basin_start_angle",
@@ -380,11 +384,10 @@ RESULTS: tuple[tuple[str, SI | None, tuple[str, ...]], ...] = (
         "g theta_cr",
         ACCELERATION,
         (
-            *("resolution", "survived_up_to", "lowest_overturning_amplitude", "amplitude_range"),
+            *("resolution", "survived_up_to", "lowest_overturning_amplitude"),
             *("heteroclinic_amplitude", "melnikov_amplitude"),
         ),
     ),
-    ("1/alpha", SECONDS, ("period_range",)),
     ("alpha", HERTZ._replace(of=_cycles_per_second), ("cyclic_frequency", "line_frequency")),
     ("theta_cr^2", SI("variance", "rad^2", "variance_rad2", "rad2", _square_radians), ("variance",)),
     (
@@ -404,11 +407,13 @@ RESULT_QUANTITIES = {
 """Quantities of results, as far as they have units in tables."""
 LOWEST = Quantity("lowest", unit="g theta_cr", si=_like(ACCELERATION, "lowest"))
 """Lowest amplitude that overturns; in other results a level of the intensity of ground motions."""
-for _place in ("special", "end", "accumulation", "grazing", "branch"):
-    for _each in SYSTEM_QUANTITIES.values():
-        for _name in (f"{_place}_{_each.name}", f"{_place}_{_each.name}_error"):
-            _si = _each.si and _like(_each.si, _name)
-            RESULT_QUANTITIES[_name] = Quantity(_name, unit=_each.unit, si=_si)
+for _each in SYSTEM_QUANTITIES.values():
+    _names = [f"{_each.name}_{_end}" for _end in ("range", "low", "high")]
+    for _place in ("special", "end", "accumulation", "grazing", "branch"):
+        _names += [f"{_place}_{_each.name}", f"{_place}_{_each.name}_error"]
+    for _name in _names:
+        _si = _each.si and _like(_each.si, _name)
+        RESULT_QUANTITIES[_name] = Quantity(_name, unit=_each.unit, si=_si)
 
 QUANTITIES = {**SYSTEM_QUANTITIES, **RUN_QUANTITIES, **RESULT_QUANTITIES}
 """All quantities by name."""

@@ -159,7 +159,8 @@ class Fragility(Result):
             for each in fields(LognormalFit)
             if each.name in FIT
         }
-        return self.dataset[curves].assign(columns).merge(self.dataset, combine_attrs="override")
+        data = self.dataset[curves].assign(columns).merge(self.dataset, combine_attrs="override")
+        return data.assign_attrs(unit=data.scale.attrs["units"], undecided=int((data.certified == 0).sum()))
 
     def fit(self, limit: float = math.inf) -> LognormalFit:
         """Return the fit of a limit.
@@ -375,12 +376,24 @@ class OverturningSet(Result):
     block: Block
 
     def _data(self) -> xr.Dataset:
-        """Return the dataset with the switches first, and the names of their records."""
-        rows = self.dataset["switch_record"].values
-        names = "switch", np.array(self.records.names)[rows], {"long_name": "record of the switch"}
-        switches = [name for name, each in self.dataset.data_vars.items() if "switch" in each.dims]
-        first = self.dataset[switches].assign(switch_name=names)
-        return first.merge(self.dataset, combine_attrs="override")
+        """Return the dataset with the switches first, the names of their records, and the intervals of each record."""
+        data, unit = self.dataset, {"units": self.measure.unit or "1"}
+        names = "switch", np.array(self.records.names)[data["switch_record"].values], {"long_name": "record"}
+        switches = [name for name, each in data.data_vars.items() if "switch" in each.dims]
+        intervals = [self.intervals(number) for number in range(len(self.records))]
+        numbers = np.repeat(np.arange(len(intervals)), [len(each) for each in intervals])
+        ends = np.concatenate(intervals)
+        first = data[switches].assign(
+            switch_name=names,
+            interval_record=("interval", numbers, {"long_name": "number of the record", "units": "1"}),
+            interval_low=("interval", ends[:, 0], {"long_name": "lowest overturning level"} | unit),
+            interval_high=("interval", ends[:, 1], {"long_name": "highest overturning level"} | unit),
+        )
+        facts = {"unit": unit["units"], "spacing": self.spacing}
+        return first.merge(data, combine_attrs="override").assign_attrs(facts)
+
+    def _summary(self) -> xr.Dataset:
+        return self._data().assign_attrs(levels=self.scales.tolist())
 
     @property
     def measure(self) -> Intensity:
@@ -556,6 +569,13 @@ class Sensitivity(Result):
 
     dataset: xr.Dataset = field(repr=False)
     block: Block
+
+    def _summary(self) -> xr.Dataset:
+        """Return the dataset with the levels, and the number of runs that overturn, as attributes."""
+        levels, fell = self.dataset.scale, int(self.dataset.overturned.sum())
+        return self.dataset.assign_attrs(
+            levels=levels.values.tolist(), unit=levels.attrs["units"], overturned=fell
+        )
 
     def __str__(self) -> str:
         data = self.dataset

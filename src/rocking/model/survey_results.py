@@ -429,12 +429,12 @@ class BasinMap(Result):
             "name": ("name of the attractor", [each.name for each in self.attractors]),
             "kind": ("type of the response", [str(each.kind) for each in verdicts]),
             "response_period": (
-                "forcing cycles per response period",
+                "forcing cycles per response period; 0: not periodic",
                 [each.period or 0 for each in verdicts],
             ),
-            "symmetric": (
-                "whether the response is its own mirror image",
-                [bool(each.symmetric) for each in verdicts],
+            "impacts_per_period": (
+                "impacts per period; -1: not periodic, or infinitely many",
+                [-1 if each.impacts_per_period is None else each.impacts_per_period for each in verdicts],
             ),
             "start_angle": (
                 "angle of an initial state of the basin",

@@ -23,12 +23,26 @@ Table = dict[str, np.ndarray]
 Quantities = Mapping[str, Quantity]
 """Quantities of variables by name that differ from those of `rocking.model.quantity`."""
 
+NO_QUANTITIES: Quantities = {}
+FIXED = (
+    *(
+        "amplitude",
+        "period",
+        "frequency",
+        "restitution",
+        "critical_angle",
+        "brace_angle",
+        "brace_restitution",
+    ),
+    *("phase", "angle", "velocity"),
+)
+"""Quantities of a system in the order of the columns of a table."""
 RESULT = "result"
 """Name of the table of what has no dimensions: one row."""
 PURE = Quantity("", units="")
 """Quantity without a unit."""
 UNIT = re.compile(
-    r" (in units of [a-z]+( theta_cr)?|in normalised time|in radians per normalised time|in cycles per tau|per tau)"
+    " (in units of (g |alpha )?theta_cr|in normalised time|in radians per normalised time|in cycles per tau|per tau)"
 )
 """Unit of a normalised quantity in the description of a variable."""
 SENTENCES = {
@@ -42,7 +56,7 @@ SENTENCES = {
 NUMBERED = ("record", "sample")
 """Dimensions whose coordinates are numbers from 0."""
 PERIODIC = "periodic"
-PERIODS = ("response_period", "orbit_period", "rest_period")
+PERIODS = ("response_period", "orbit_period")
 """Variables in which 0 stands for a response that is not periodic."""
 HITS = ("impacts_per_period", "brace_hits_per_period")
 """Variables in which -1 stands for infinitely many impacts, or for a response that is not periodic."""
@@ -81,7 +95,7 @@ def in_si(data: xr.Dataset, block: Any, own: Quantities) -> xr.Dataset:
     return xr.Dataset(
         {name: converted(name, each) for name, each in data.data_vars.items()},
         {name: converted(name, each) for name, each in data.coords.items()},
-        attributes | {"comment": _comment(data.attrs.get("comment", ""))},
+        attributes,
     )
 
 
@@ -96,7 +110,9 @@ def _comment(normalised: str) -> str:
 def _attribute(name: Hashable, value: Any, block: Any, own: Quantities) -> Iterator[tuple[Hashable, Any]]:
     """Yield an attribute; with a block, that of a quantity in SI has the unit in its name."""
     si = quantity(name, own).si
-    if block is None or si is None or isinstance(value, str):
+    if block is not None and name == "comment":
+        yield name, _comment(value)
+    elif block is None or si is None or isinstance(value, str):
         yield name, value
     elif value is None:
         yield si.key, None
@@ -118,9 +134,10 @@ class Group(NamedTuple):
         """Name of the table."""
         return "_".join(map(str, self.dimensions)) or RESULT
 
-    def short(self, text: str) -> str:
-        """Return a heading or a key without the name of the table: of "switch", "level" instead of "switch_level"."""
-        return text.removeprefix(f"{self.name}_")
+    def short(self, name: str, text: str) -> str:
+        """Return the heading or key of a variable without the name of the table: of "switch", "level" for "switch_level"."""
+        prefix = f"{self.name}_"
+        return text.removeprefix(prefix) if name.startswith(prefix) else text
 
 
 def tables_of(data: xr.Dataset, own: Quantities, block: Any) -> dict[str, Table]:
@@ -130,17 +147,10 @@ def tables_of(data: xr.Dataset, own: Quantities, block: Any) -> dict[str, Table]
     """
     groups = groups_of(data)
     if not groups:
-        row = {name: value for name, value in data.attrs.items() if not isinstance(value, list)}
-        columns = {str(name): np.array([value]) for name, value in row.items()}
-        return {RESULT: dict(_headed(name, values, data, own, block) for name, values in columns.items())}
+        row = {str(name): np.array([each]) for name, each in data.attrs.items() if not isinstance(each, list)}
+        return {RESULT: headed(row, block, own)}
     return {
-        each.name: {
-            each.short(heading): values
-            for heading, values in (
-                _headed(name, column, data, own, block) for name, column in rows_of(data, each).items()
-            )
-        }
-        for each in groups
+        group.name: headed(rows_of(data, group, with_fixed=True), block, own, data, group) for group in groups
     }
 
 
@@ -155,11 +165,11 @@ def groups_of(data: xr.Dataset) -> list[Group]:
     return [Group(*each) for each in groups.items()]
 
 
-def rows_of(data: xr.Dataset, group: Group) -> Table:
+def rows_of(data: xr.Dataset, group: Group, *, with_fixed: bool) -> Table:
     """Return the columns of a table, normalised: coordinates, fixed quantities, then the variables.
 
-    A row of a table over a quantity of a system also states the quantities of the system that do not vary, and their random
-    samples.
+    `with_fixed`: a row of a table over a quantity of a system also states the quantities of the system that do not vary, and
+    their random samples.
     """
     dimensions, _ = group
     sizes = [data.sizes[name] for name in dimensions]
@@ -178,24 +188,29 @@ def rows_of(data: xr.Dataset, group: Group) -> Table:
         return np.broadcast_to(values.reshape(shape), sizes).ravel()
 
     table = {str(name): column(name) for name in (*along, *beside)}
-    if not dimensions or table.keys() & SYSTEM_QUANTITIES.keys():
+    if with_fixed and (not dimensions or table.keys() & SYSTEM_QUANTITIES.keys()):
         fixed = dict(_fixed(data.attrs))
-        table |= {name: np.full(math.prod(sizes), fixed[name]) for name in fixed if name not in table}
+        table |= {
+            name: np.full(math.prod(sizes), value)
+            for name, value in fixed.items()
+            if not {name, name.removesuffix("_low"), name.removesuffix("_high")} & table.keys()
+        }
     table |= {name: column(name) for name in group.variables}
-    return table | {name: _counts(name, table) for name in COUNTS if name in table}
+    kinds = table.get("kind", table.get(f"{group.name}_kind", np.array(PERIODIC)))
+    return table | {
+        name: _counts(group.short(name, name), values, kinds)
+        for name, values in table.items()
+        if group.short(name, name) in COUNTS
+    }
 
 
 def _fixed(attributes: Mapping[Any, Any]) -> Iterator[tuple[str, Any]]:
     """Yield the quantities of a system, and of its random samples, that attributes give."""
-    for name in SYSTEM_QUANTITIES:
+    for name in (*FIXED, "samples", "seed"):
         if name in attributes:
             yield name, attributes[name]
-    for name in SYSTEM_QUANTITIES:
         for end, value in zip(("low", "high"), attributes.get(f"{name}_range", ()), strict=False):
             yield f"{name}_{end}", value
-    for name in ("samples", "seed"):
-        if name in attributes:
-            yield name, attributes[name]
 
 
 def words(values: np.ndarray, attributes: Mapping[str, Any]) -> np.ndarray:
@@ -212,25 +227,34 @@ def flags(attributes: Mapping[str, Any]) -> dict[int, str]:
     return dict(zip(codes, attributes["flag_meanings"].split(), strict=True))
 
 
-def _counts(name: str, table: Mapping[str, np.ndarray]) -> np.ndarray:
+def _counts(name: str, values: np.ndarray, kinds: np.ndarray) -> np.ndarray:
     """Return a column of counts as Python numbers: integers, NaN if absent, and infinity."""
-    values = table[name]
     column = values.astype(object)
     column[values < (1 if name in PERIODS else 0)] = math.nan
     if name in HITS:
-        column[(values == -1) & (table.get("kind", PERIODIC) == PERIODIC)] = math.inf
+        column[(values == -1) & (kinds == PERIODIC)] = math.inf
     return column
 
 
-def _headed(
-    name: str, values: np.ndarray, data: xr.Dataset, own: Quantities, block: Any
-) -> tuple[str, np.ndarray]:
-    """Return the heading of a column with its unit, that of the quantity or else of the variable, and the values in this unit."""
-    si, converted = _converted(name, values, own, block)
-    if si is not None:
-        return si.heading, converted
-    unit = quantity(name, own).unit or (data[name].attrs.get("units", "1") if name in data else "1")
-    return f"{name} [{unit}]" if unit not in ("", "1") else name, values
+def headed(
+    table: Table,
+    block: Any,
+    own: Quantities = NO_QUANTITIES,
+    data: xr.Dataset | None = None,
+    group: Group = Group((), []),  # noqa: B008 (immutable)
+) -> Table:
+    """Return a table of normalised columns by name with units in its headings; with a block in SI units.
+
+    Without a quantity of its name, the unit of a column is that of its variable in `data`.
+    """
+    columns = {}
+    for name, values in table.items():
+        si, converted = _converted(name, values, own, block)
+        beside = data[name].attrs.get("units", "1") if data is not None and name in data else "1"
+        unit = quantity(name, own).unit or beside
+        plain = f"{name} [{unit}]" if unit not in ("", "1") else name
+        columns[group.short(name, si.heading if si else plain)] = converted
+    return columns
 
 
 def _converted(name: str, values: np.ndarray, own: Quantities, block: Any) -> tuple[SI | None, np.ndarray]:
@@ -260,9 +284,9 @@ def dictionary(data: xr.Dataset, own: Quantities, left_out: Iterable[str], block
 def _keyed_rows(data: xr.Dataset, group: Group, own: Quantities, block: Any) -> list[dict[str, Any]]:
     """Return the rows of a table; in SI the key of a quantity ends with the unit."""
     keyed = {}
-    for name, values in rows_of(data, group).items():
+    for name, values in rows_of(data, group, with_fixed=False).items():
         si, converted = _converted(name, values, own, block)
-        keyed[group.short(si.key if si else name)] = converted.tolist()
+        keyed[group.short(name, si.key if si else name)] = converted.tolist()
     return [dict(zip(keyed, row, strict=True)) for row in zip(*keyed.values(), strict=True)]
 
 

@@ -321,7 +321,7 @@ class Verdict(Result):
             "steady_peak": self.steady_peak,
             "transient": self.transient,
             "cycles": self.cycles,
-            "impacts": self.impacts,
+            "events_computed": self.impacts,
             **{
                 f"tolerance_{name.replace(' ', '_')}": value
                 for name, value in self.evidence.tolerances.items()

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import frozen
 
 from rocking.model.block import Block
-from rocking.model.forcing import Harmonic, PiecewiseLinear
+from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
 from rocking.model.result import Result, described
 from rocking.model.system import quantities
 from rocking.model.text import counted
@@ -176,7 +176,9 @@ def _attributes(motion: Trajectory) -> dict[str, Any]:
     normalised = described("Motion")
     attributes = normalised | {
         "comment": f"{normalised['comment']} {base}{full}",
+        **({"pulse": motion.system.forcing.kind} if isinstance(motion.system.forcing, Pulse) else {}),
         **quantities(motion.system),
+        "model": "slender" if motion.system.critical_angle is None else "full",
         "start_angle": motion.start.angle,
         "start_velocity": motion.start.velocity,
         **({"cycles": motion.cycles} if periodic else {}),
@@ -197,6 +199,7 @@ def _attributes(motion: Trajectory) -> dict[str, Any]:
         }
     if motion.overturning is not None:
         attributes["overturning_time"] = motion.overturning.time
+        attributes["overturning_impacts"] = motion.overturning.impacts
         if periodic:
             attributes["overturning_cycle"] = motion.overturning.cycle
     return attributes

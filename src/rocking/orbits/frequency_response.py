@@ -175,7 +175,7 @@ class FrequencyResponse(ReadOnlyArrays, Result):
                 np.array([one.parameter for _, one in special], float),
                 f"{name} of the special point",
             ),
-            "response_count": along("rest", counts, "number of responses from rest of the type"),
+            "rest_count": along("rest", counts, "number of responses from rest of the type"),
         }
         coordinates = {
             name: coordinate_of("point", name, points("parameter", self.values)),

@@ -102,6 +102,7 @@ class OrbitDiagram(ReadOnlyArrays, Result):
             "cycle": ("cycle", np.arange(self.cycles), {"long_name": "forcing cycles since the transient"}),
         }
         attributes = described("Orbit diagram") | {
+            "parameter": name,
             "start_angle": self.start.angle,
             "start_velocity": self.start.velocity,
             "transient": self.transient,

@@ -139,6 +139,7 @@ class ResponseDiagram(ReadOnlyArrays, Result):
             "level": (name, np.array(levels), {"long_name": "level of the evidence"}),
         }
         attributes = described("Response diagram") | {
+            "parameter": name,
             "start_angle": self.start.angle,
             "start_velocity": self.start.velocity,
             "max_cycles": self.max_cycles,

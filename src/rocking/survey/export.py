@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rocking.model.block import Block
 from rocking.model.files import check_writable, replacing_hdf5
-from rocking.model.verdict import Kind
+from rocking.model.table import Table, flags, tables_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-PER_PERIOD = ("impacts_per_period", "brace_hits_per_period")
-COUNTS = ("response_period", *PER_PERIOD, "transient")
-"""Variables with integers that stand for an absent number."""
 AT_ONCE = 1 << 20
 """Approximate number of points in memory at a time."""
 
@@ -41,41 +39,10 @@ def counts(found: xr.Dataset, name: str) -> dict[str, int]:
     return {meaning: int(total[value]) for value, meaning in meanings.items()}
 
 
-def flags(metadata: Mapping[str, Any]) -> dict[int, str]:
-    """Return the meanings of the values of a variable from its attributes."""
-    return dict(
-        zip(np.asarray(metadata["flag_values"]).tolist(), metadata["flag_meanings"].split(), strict=True)
-    )
-
-
-def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
-    """Yield tables (columns by name) of the dataset in parts: the axes, then all variables, flags as words.
-
-    Absent counts are NaN, and infinitely many events infinity, where the integers of the dataset are -1 or 0.
-    """
-    words = {
-        name: np.array([flags(found[name].attrs).get(value, "") for value in range(256)])
-        for name in map(str, found.data_vars)
-        if "flag_values" in found[name].attrs
-    }
+def tables(found: xr.Dataset, block: Block | None = None) -> Iterator[Table]:
+    """Yield the principal table of the dataset in parts; with a block in SI units."""
     for part in parts(found):
-        dimensions = next(iter(part.data_vars.values())).dims
-        grids = np.meshgrid(*(part[name].values for name in dimensions), indexing="ij")
-        table = {str(name): grid.ravel() for name, grid in zip(dimensions, grids, strict=True)}
-        for name in map(str, part.data_vars):
-            values = part[name].values.ravel()
-            table[name] = words[name][values] if name in words else values
-        yield table | {name: _count(name, table) for name in COUNTS if name in table}
-
-
-def _count(name: str, table: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Return a column of counts as Python numbers: integers, NaN if absent, and infinity."""
-    values = table[name]
-    column = values.astype(object)
-    column[values < (1 if name == "response_period" else 0)] = math.nan
-    if name in PER_PERIOD:
-        column[(values == -1) & (table["kind"] == str(Kind.PERIODIC))] = math.inf
-    return column
+        yield next(iter(tables_of(part, {}, block).values()))
 
 
 def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:

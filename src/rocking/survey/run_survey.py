@@ -17,9 +17,9 @@ from attrs import frozen
 
 from rocking.model.package import require_extra
 from rocking.model.progress import Bar
+from rocking.model.table import flags
 from rocking.model.text import counted, percent, shown_path
 from rocking.model.validation import Refusal, instance
-from rocking.survey.export import flags
 from rocking.survey.measurement import Arrays, Batch, Measurement, batches, compute
 from rocking.survey.memory import Memory, check_fits
 from rocking.survey.spec import SurveySpec
