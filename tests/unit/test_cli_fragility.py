@@ -58,20 +58,19 @@ def test_files_hold_the_probabilities(rocking, tmp_path):
     )
     data = found.dataset
     told = json.loads(out)
-    assert told["levels"] == LEVELS.tolist()
-    assert told["records"][-1] == rk.read_record_set([EXAMPLE_FILE]).names[0]
-    assert [curve["fraction"] for curve in told["curves"]] == data.fraction.values.tolist()
-    assert [curve["limit"] for curve in told["curves"]] == [0.1, 0.5, None]
-    assert told["curves"][2]["median"] == found.fit().median
+    assert told["record"][-1]["name"] == rk.read_record_set([EXAMPLE_FILE]).names[0]
+    assert [each["fraction"] for each in told["limit_scale"]] == data.fraction.values.ravel().tolist()
+    assert [each["limit_rad"] for each in told["limit"]] == [BLOCK.radians(0.1), BLOCK.radians(0.5), None]
+    assert told["limit"][2]["median"] == found.fit().median
     assert told["files"] == ["f.csv", "f.nc"]
     with (tmp_path / "f.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 21
     assert [float(row["fraction_high"]) for row in rows] == data.fraction_high.values.ravel().tolist()
-    assert float(rows[7]["limit [deg]"]) == BLOCK.degrees(0.5)
-    assert {float(row["limit [theta_cr]"]) for row in rows} == {0.1, 0.5, np.inf}
+    limits = {float(row["limit [rad]"]) for row in rows}
+    assert limits == {BLOCK.radians(0.1), BLOCK.radians(0.5), np.inf}
     with xr.open_dataset("f.nc", engine="h5netcdf") as kept:
-        assert np.array_equal(kept.peak, data.peak)
+        assert np.array_equal(kept.peak, BLOCK.radians(data.peak.values))
         assert kept.attrs["records_sha256"] == data.attrs["records_sha256"]
 
 
@@ -105,7 +104,7 @@ def test_a_folder_is_the_set_of_its_files(rocking, tmp_path):
 def test_levels_of_a_study_may_be_a_list(rocking, tmp_path):
     (tmp_path / "study.toml").write_text("pga-g = [0.2, 0.5, 1.4]\nlimit = 0.5\n", encoding="utf-8")
     said = json.loads(rocking(f"fragility {NAMES} --height 2 --width 0.5 --study study.toml --json")[2])
-    assert said["levels"] == [0.2, 0.5, 1.4]
+    assert [each["scale"] for each in said["scale"]] == [0.2, 0.5, 1.4]
 
 
 def test_one_level_gives_the_probability_under_the_records_as_they_are(rocking):
@@ -123,7 +122,7 @@ def test_levels_are_those_of_any_measure(rocking):
     said = json.loads(rocking(f"fragility {NAMES} --height 2 --width 0.5 --pgv 0.1:1:4 --json")[2])
     found = rk.fragility(read(), BLOCK, np.linspace(0.1, 1, 4), intensity="pgv", limits=())
     assert (said["intensity"], said["unit"]) == ("pgv", "m/s")
-    assert said["curves"][0]["fraction"] == found.dataset.fraction.values[0].tolist()
+    assert [each["fraction"] for each in said["limit_scale"]] == found.dataset.fraction.values[0].tolist()
 
 
 def test_one_record_is_warned_of(rocking):

@@ -230,7 +230,7 @@ def test_tiles_are_those_of_the_map_in_its_units(rocking, found, tmp_path):
 CABINET = "map --height 1.8 --width 0.6 --acceleration-g 0.3:0.6:20 --frequency-hz 1:2:3 --max-cycles 50"
 
 
-def test_json_and_files_of_a_block_have_its_units_beside_the_normalised_ones(rocking):
+def test_json_and_files_of_a_block_have_its_units(rocking):
     read = json.loads(rocking(f"{CABINET} --csv a.csv --netcdf a.nc --json")[2])
     assert (read["block"]["height_m"], read["block"]["width_m"]) == (1.8, 0.6)
     assert read["block"]["frequency_hz"] == pytest.approx({"start": 1.0, "stop": 2.0, "count": 3})
@@ -244,11 +244,17 @@ def test_json_and_files_of_a_block_have_its_units_beside_the_normalised_ones(roc
     with Path("a.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert {"amplitude", "frequency"}.isdisjoint(rows[0])
-    for row in rows[::7]:
-        amplitude, frequency = float(row["amplitude [g theta_cr]"]), float(row["frequency [alpha]"])
-        assert float(row["acceleration [m/s^2]"]) == pytest.approx(block.acceleration(amplitude))
-        assert float(row["frequency [Hz]"]) == pytest.approx(block.hertz(frequency))
-        assert float(row["peak [rad]"]) == pytest.approx(block.radians(float(row["peak [theta_cr]"])))
+    found = rk.parametric_map(
+        amplitude=np.linspace(*block.amplitude(np.array([0.3, 0.6]) * 9.80665), 20),
+        frequency=np.linspace(*block.frequency(np.array([1.0, 2.0])), 3),
+        restitution=block.restitution,
+        max_cycles=50,
+    )
+    peaks = np.array([float(row["peak [rad]"]) for row in rows])
+    np.testing.assert_allclose(peaks, block.radians(found.peak.values.ravel()), rtol=1e-9)
+    accelerations = [float(row["acceleration [m/s^2]"]) for row in rows[::3]]
+    assert accelerations == pytest.approx(np.linspace(0.3, 0.6, 20) * 9.80665)
+    assert [float(row["frequency [Hz]"]) for row in rows[:3]] == pytest.approx([1.0, 1.5, 2.0])
     with xr.open_dataset("a.nc", engine="h5netcdf") as found:
         assert {"acceleration_m_per_s2", "frequency_hz"} < set(found.coords)
         assert found.acceleration_m_per_s2.attrs["units"] == "m s-2"

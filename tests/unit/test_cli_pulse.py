@@ -10,18 +10,6 @@ BLOCK = "--height 2 --width 0.5"
 SIZE = "--acceleration-g 0.5 --frequency-hz 1"
 
 
-def test_pulse_in_si_is_that_of_the_block(rocking):
-    summary = json.loads(rocking(f"simulate --pulse one-sine {BLOCK} {SIZE} --json")[2])
-    block = rk.Block(height=2.0, width=0.5)
-    motion = rk.simulate(block.system(rk.Pulse("one-sine", amplitude=0.5 * 9.80665, duration=1.0)))
-    assert summary["outcome"] == motion.outcome == "overturned"
-    assert summary["margin"] == pytest.approx(motion.margin, rel=1e-12)
-    assert summary["margin_time"] == pytest.approx(motion.margin_time, rel=1e-12)
-    assert summary["certified"] is True
-    assert summary["block"]["duration_s"] == pytest.approx(1.0)
-    assert summary["pulse"] == "one-sine"
-
-
 @pytest.mark.parametrize(("kind", "part"), [("half-sine", 0.5), ("one-cosine", 1.0)])
 def test_period_is_that_of_the_whole_wave(rocking, kind, part):
     out = rocking(f"simulate --pulse {kind} --amplitude 1.5 --period 2 --restitution 0.9 --json")[2]

@@ -56,7 +56,7 @@ def test_files_and_json_hold_the_numbers_of_the_function(rocking, tmp_path, sour
     assert said["records_sha256"] == chosen.digest
     assert said["levels"] == np.linspace(0.5, 3, 20).tolist()
     assert said["overturned"] == int(found.overturned.sum())
-    assert [each["share_high"] for each in said["changes"]] == found.share_high.values.tolist()
+    assert [each["share_high"] for each in said["change"]] == found.share_high.values.tolist()
     assert said["warnings"][0] == "2 records can hardly say how much records differ: use 10 or more"
     assert said["files"] == ["a.csv", "a.nc"]
     with (tmp_path / "a.csv").open(encoding="utf-8") as file:

@@ -18,7 +18,7 @@ def test_axis_is_a_table_and_modes_are_a_list(rocking):
         "amplitude = 2\nperiod = { start = 1, stop = 1.2, count = 3 }\nrestitution = 0.9\nmodes = [1, 3]\nstep = 0.1\n"
     )
     read = json.loads(rocking("frequency-response --study study.toml --json")[2])
-    assert (read["first"], read["last"], read["count"], read["modes"]) == (1.0, 1.2, 3, [1, 3])
+    assert (read["period_range"], read["values"], read["modes"]) == ([1.0, 1.2], 3, [1, 3])
 
 
 @pytest.mark.parametrize(
@@ -104,7 +104,7 @@ def test_range_of_initial_states_is_a_table(rocking):
     Path("table.toml").write_text("angle = { start = -0.5, stop = 0.25 }" + others)
     Path("text.toml").write_text('angle = "-0.5:0.25"' + others)
     read = rocking("safe-basin --study table.toml --json")
-    assert (read[:2], json.loads(read[2])["angle"]) == ((0, ""), [-0.5, 0.25])
+    assert (read[:2], json.loads(read[2])["angle_range"]) == ((0, ""), [-0.5, 0.25])
     assert read == rocking("safe-basin --study text.toml --json")
 
 

@@ -58,16 +58,8 @@ def through_file(data, tmp_path):
 
 
 def multipliers_of(data):
-    return data["multiplier_real"].values + 1j * data["multiplier_imag"].values
-
-
-def test_every_variable_has_a_name_and_every_number_a_unit(
-    branch, curve, orbits, cascade, transition, manifolds
-):
-    for found in (branch, curve, orbits, cascade, transition, manifolds):
-        for name, variable in found.to_xarray().variables.items():
-            assert variable.attrs["long_name"], name
-            assert variable.dtype.kind in "US" or {"units", "flag_values"} & set(variable.attrs), name
+    parts = (data[f"multiplier_{k}_real"].values + 1j * data[f"multiplier_{k}_imag"].values for k in (1, 2))
+    return np.stack(list(parts), axis=-1)
 
 
 def test_every_dataset_states_the_quantities_that_do_not_vary(branch, curve, orbits):
@@ -83,9 +75,9 @@ def test_every_dataset_states_the_quantities_that_do_not_vary(branch, curve, orb
 def test_branch_comes_back_with_its_special_points(branch, tmp_path):
     data = through_file(branch.to_xarray(), tmp_path)
     assert data.attrs["parameter"] == "amplitude"
-    assert list(data.attrs["ends"]) == list(branch.ends)
+    assert data["end_reason"].values.tolist() == list(branch.ends)
     for name, field in {
-        "parameter": "parameter",
+        "amplitude": "parameter",
         "event_phase": "phase",
         "event_velocity": "velocity",
     }.items():
@@ -93,20 +85,22 @@ def test_branch_comes_back_with_its_special_points(branch, tmp_path):
     np.testing.assert_array_equal(data["peak"], branch.points["peak"])
     np.testing.assert_array_equal(data["stability"].values.astype(str), branch.points["stability"])
     np.testing.assert_array_equal(multipliers_of(data), branch.points["multipliers"])
-    assert data["special"].values.tolist() == [one.kind for one in branch.special] == ["symmetry-breaking"]
-    assert data["special_parameter"].values.tolist() == [one.parameter for one in branch.special]
+    assert (
+        data["special_kind"].values.tolist() == [one.kind for one in branch.special] == ["symmetry-breaking"]
+    )
+    assert data["special_amplitude"].values.tolist() == [one.parameter for one in branch.special]
 
 
 def test_branch_without_special_points_has_an_empty_dimension(tmp_path):
     branch = rk.continue_orbit(rk.classify(SYSTEM).orbit, "amplitude", (14, 16), step=0.1)
     data = through_file(branch.to_xarray(), tmp_path)
-    assert dict(data.sizes) == {"point": len(branch), "special_point": 0, "multiplier": 2}
+    assert dict(data.sizes) == {"point": len(branch), "special": 0, "end": 2}
 
 
 def test_branch_over_the_slenderness_of_a_full_block_has_radians():
     system = rk.System(rk.Harmonic(amplitude=3.0, period=1.0), 0.9, critical_angle=0.2)
     branch = rk.continue_orbit(rk.classify(system).orbit, "critical_angle", (0.19, 0.21), step=0.1)
-    assert branch.to_xarray()["parameter"].attrs["units"] == "rad"
+    assert branch.to_xarray()["critical_angle"].attrs["units"] == "rad"
 
 
 def test_curve_comes_back(curve, tmp_path):
@@ -125,25 +119,34 @@ def test_exponents_come_back_with_their_history(amplitude, period, restitution, 
     spectrum = rk.lyapunov(system, cycles=2_000)
     assert spectrum.superstable is superstable
     data = through_file(spectrum.to_xarray(), tmp_path)
-    np.testing.assert_array_equal(data["value"], spectrum.values)
-    np.testing.assert_array_equal(data["error"], spectrum.errors)
-    np.testing.assert_array_equal(data["cycles"], spectrum.history["cycles"])
-    np.testing.assert_array_equal(data["running_value"], spectrum.history["values"])
+    np.testing.assert_array_equal(data["exponent"], spectrum.values)
+    np.testing.assert_array_equal(data["exponent_error"], spectrum.errors)
+    if superstable:
+        assert (data["cycles"].values.tolist(), data["running_exponent"].values.tolist()) == (
+            [2_000],
+            [[-np.inf] * 2],
+        )
+    else:
+        np.testing.assert_array_equal(data["cycles"], spectrum.history["cycles"])
+        np.testing.assert_array_equal(data["running_exponent"], spectrum.history["values"])
 
 
 def test_cascade_comes_back_with_its_orbits(cascade, tmp_path):
     data = through_file(cascade.to_xarray(), tmp_path)
-    np.testing.assert_array_equal(data["parameter"], cascade.values)
-    np.testing.assert_array_equal(data["period"], [1, 2, 4, 8])
+    np.testing.assert_array_equal(data["amplitude"], cascade.values)
+    np.testing.assert_array_equal(data["orbit_period"], [1, 2, 4, 8])
     np.testing.assert_array_equal(data["ratio"][1:-1], cascade.ratios)
     assert np.isnan(data["ratio"].values[[0, -1]]).all()
-    assert (data.attrs["accumulation"], data.attrs["accumulation_error"]) == cascade.accumulation
+    assert (
+        data.attrs["accumulation_amplitude"],
+        data.attrs["accumulation_amplitude_error"],
+    ) == cascade.accumulation
     assert (data.attrs["parameter"], data.attrs["end"]) == ("amplitude", cascade.end)
     assert (data.attrs["restitution"], data.attrs["period"]) == (0.8, 1.721328)
     assert "amplitude" not in data.attrs
     for k, special in enumerate(cascade.special):
         here, orbit = data.isel(doubling=k), special.orbit
-        assert (here["angle"], here["velocity"]) == (orbit.state.angle, orbit.state.velocity)
+        assert (here["section_angle"], here["section_velocity"]) == (orbit.state.angle, orbit.state.velocity)
         assert here["section_phase"] == orbit.phase
         assert tuple(multipliers_of(here)) == orbit.multipliers
 
@@ -172,17 +175,18 @@ def test_orbits_come_back_and_pandas_writes_a_table(orbits, tmp_path):
     assert data.sizes["orbit"] == len(orbits)
     for k, orbit in enumerate(orbits):
         here = data.isel(orbit=k)
-        assert here["period"] == orbit.period
-        assert here["impacts"] == orbit.impacts
-        assert here["angle"] == orbit.state.angle
-        assert here["velocity"] == orbit.state.velocity
+        assert here["orbit_period"] == orbit.period
+        assert here["impacts_per_period"] == orbit.impacts
+        assert here["section_angle"] == orbit.state.angle
+        assert here["start_velocity"] == orbit.start.velocity
         assert str(here["stability"].values) == str(orbit.stability)
         assert tuple(multipliers_of(here)) == orbit.multipliers
-    assert len(data.drop_dims("multiplier").to_dataframe()) == len(orbits)
+    assert len(orbits.to_dataframe()) == len(orbits)
 
 
 def test_infinitely_many_impacts_are_minus_one():
     resting = rk.find_orbits(rk.System(rk.Harmonic(amplitude=1.1, period=2.0), restitution=0.5), 1)
-    counts = resting.to_xarray()["impacts"].values.tolist()
+    counts = resting.to_xarray()["impacts_per_period"].values.tolist()
     assert -1 in counts
+    assert np.inf in resting.to_dataframe()["impacts_per_period"].tolist()
     assert counts == [-1 if orbit.impacts is None else orbit.impacts for orbit in resting]

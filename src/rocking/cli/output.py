@@ -190,7 +190,9 @@ class Report:
         """Return the figure of the result."""
         if self.figure is not None:
             return self.figure(plot, computed, request)
-        return self.result(computed).plot(block=request.block)
+        result = self.result(computed)
+        beside = {} if request.block is None or result.block is not None else {"block": request.block}
+        return result.plot(**beside)
 
     def tables(self, computed: Any, request: Request) -> Iterable[Table]:
         """Return the tables of the CSV file."""

@@ -250,8 +250,20 @@ class Result:
         name = next(iter(tables)) if table is None else one_of("table", table, tuple(tables))
         return pd.DataFrame(tables[name])
 
-    def plot(self, *arguments: Any, **options: Any) -> Any:
-        """Draw the result by its function of `rocking.plot`, with its further arguments; return what this returns.
+    def plot(self, *arguments: Any, units: str | None = None, **options: Any) -> Any:
+        """Draw the result by its function of `rocking.plot`; return what this returns.
+
+        Parameters
+        ----------
+        *arguments, **options
+            Further arguments of the function, such as `ax`, and `block` for a system that was made without one.
+        units : {"si", "normalised"}, optional
+            Units of the figure. Default: SI if the block is known, else normalised.
+
+        Raises
+        ------
+        TypeError, ValueError
+            As in `to_xarray`, or as the function does.
 
         Examples
         --------
@@ -260,7 +272,10 @@ class Result:
         >>> len(motion.plot().axes)
         2
         """
-        return getattr(import_module("rocking.plot"), self.PLOT)(self, *arguments, **options)
+        draw = getattr(import_module("rocking.plot"), self.PLOT)
+        if units is not None:
+            options["block"] = self._block(units, options.get("block"))
+        return draw(self, *arguments, **options)
 
     def _figure(self) -> Any:
         """Return the figure, or its axes, that a notebook shows."""

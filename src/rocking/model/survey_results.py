@@ -94,13 +94,12 @@ class OverturningCurve(Result):
 
     def _data(self) -> xr.Dataset:
         """Return the dataset with the range of the amplitudes scanned, and the numbers of amplitudes and phases."""
-        scanned = self.dataset.amplitude.values
-        scan = {
-            "amplitude_range": scanned[[0, -1]].tolist(),
-            "amplitudes": scanned.size,
-            "phases": self.dataset.phase.size,
-        }
-        return self.dataset.assign_attrs(scan)
+        data = self.dataset.copy(deep=False)
+        data.attrs = {name: value for name, value in data.attrs.items() if name != "phase"}  # it is scanned
+        ends = data.amplitude.values[[0, -1]].tolist()
+        return data.assign_attrs(
+            amplitude_range=ends, amplitudes=data.sizes["amplitude"], phases=data.sizes["phase"]
+        )
 
     def _summary(self) -> xr.Dataset:
         return self._data().drop_dims(["amplitude", "phase"])

@@ -173,11 +173,11 @@ def rows_of(data: xr.Dataset, group: Group, *, with_fixed: bool) -> Table:
     """
     dimensions, _ = group
     sizes = [data.sizes[name] for name in dimensions]
-    along = [name for name in dimensions if name in data.coords]
-    beside = [
+    coordinates = [
         name
-        for name, each in data.coords.items()
-        if name not in data.dims and set(each.dims) <= set(dimensions)
+        for dimension in dimensions
+        for name in sorted(data.coords, key=dimension.__ne__)
+        if data[name].dims[-1:] == (dimension,) and set(data[name].dims) <= set(dimensions)
     ]
 
     def column(name: Hashable) -> np.ndarray:
@@ -187,7 +187,7 @@ def rows_of(data: xr.Dataset, group: Group, *, with_fixed: bool) -> Table:
         values = values.astype(int) if name in NUMBERED else words(values, each.attrs)
         return np.broadcast_to(values.reshape(shape), sizes).ravel()
 
-    table = {str(name): column(name) for name in (*along, *beside)}
+    table = {str(name): column(name) for name in coordinates}
     if with_fixed and (not dimensions or table.keys() & SYSTEM_QUANTITIES.keys()):
         fixed = dict(_fixed(data.attrs))
         table |= {

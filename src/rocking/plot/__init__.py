@@ -6,8 +6,36 @@ A function is imported on first use. The names stand in `__init__.pyi`.
 
 Without an Axes, a function makes a figure, which a notebook shows. In a script that has imported `matplotlib.pyplot`, the figure
 belongs to pyplot: `plt.show` shows it, and it stays open until `plt.close`.
+
+A function with the argument `block` takes that of the result, if it has one: the figure is in SI units. ``block=None`` gives a
+normalised figure.
 """
+
+from functools import wraps
+from inspect import isfunction, signature
+from typing import Any
 
 from rocking.model.public_names import lazy
 
-__getattr__, __dir__, __all__ = lazy(__name__)
+_get, __dir__, __all__ = lazy(__name__)
+
+
+def __getattr__(name: str) -> Any:
+    value = _get(name)
+    if isfunction(value) and "block" in signature(value).parameters:
+        value = globals()[name] = _in_units_of_the_result(value)
+    return value
+
+
+def _in_units_of_the_result(draw: Any) -> Any:
+    """Return a plot function whose default for `block` is that of the result."""
+    parameters = signature(draw)
+
+    @wraps(draw)
+    def drawn(*args: Any, **kwargs: Any) -> Any:
+        known = getattr(args[0], "block", None) if args else None
+        if known is None or "block" in parameters.bind_partial(*args, **kwargs).arguments:
+            return draw(*args, **kwargs)
+        return draw(*args, **kwargs, block=known)
+
+    return drawn
