@@ -210,7 +210,7 @@ class Result:
         >>> import rocking as rk
         >>> found = rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=100)
         >>> list(found.tables()["amplitude"])[:4]
-        ['amplitude [g theta_cr]', 'restitution', 'phase [rad]', 'period [1/alpha]']
+        ['amplitude [g theta_cr]', 'period [1/alpha]', 'restitution', 'phase [rad]']
         """
         chosen = self._block(units, block)
         return tables_of(self._data_for(chosen), self.QUANTITIES, chosen)
@@ -242,7 +242,7 @@ class Result:
         >>> import rocking as rk
         >>> found = rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=100)
         >>> found.to_dataframe()["safe"].tolist()
-        [1.0, 1.0]
+        [0.55, 0.55]
         """
         import pandas as pd
 
