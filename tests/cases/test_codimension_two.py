@@ -452,7 +452,7 @@ def test_dataset_holds_coefficients_and_points():
     (curve,) = curves_of(*CASES["damped"])
     data = curve.to_xarray()
     np.testing.assert_array_equal(data.coefficient, curve.coefficients)
-    assert data.special.values.tolist() == [one.kind for one in curve.special]
+    assert data.special_kind.values.tolist() == [one.kind for one in curve.special]
     assert data.special_period.values.tolist() == [one.values[0] for one in curve.special]
     assert data.special_amplitude_error.values.tolist() == [one.errors[1] for one in curve.special]
 

@@ -172,12 +172,17 @@ def test_over_the_frequency_it_is_the_same():
 def test_as_a_dataset_it_has_every_point_and_says_what_was_fixed():
     found = response(6.0, 0.8, modes=(1,))
     data = found.to_xarray()
-    assert data.sizes == {"period": len(PERIODS), "point": sum(map(len, found.branches))}
-    meanings = data.rest_kind.attrs["flag_meanings"].split()
-    assert [meanings[code] for code in data.rest_kind.values] == found.rest["kind"].tolist()
-    second = data.isel(point=data.branch_number == 1)
-    np.testing.assert_array_equal(second.branch_peak, found.branches[1].points["peak"])
-    assert (second.branch_symmetric == 0).all()
+    assert data.sizes["point"] == sum(map(len, found.branches)) + len(PERIODS)
+    rest = data.isel(point=data.branch_number == "from rest")
+    assert rest.response.values.tolist() == found.rest["kind"].tolist()
+    np.testing.assert_array_equal(rest.period, PERIODS)
+    periodic = found.rest["kind"] == "periodic"
+    np.testing.assert_array_equal(rest.peak[periodic], found.rest["steady_peak"][periodic])
+    np.testing.assert_array_equal(rest.peak[~periodic], found.rest["peak"][~periodic])
+    second = data.isel(point=data.branch_number == "1")
+    np.testing.assert_array_equal(second.peak, found.branches[1].points["peak"])
+    assert not data.branch_symmetric[1]
+    assert data.rest_count.sum() == len(PERIODS)
     assert (data.attrs["amplitude"], data.attrs["restitution"], data.attrs["modes"]) == (6.0, 0.8, [1])
 
 
@@ -185,7 +190,7 @@ def test_where_there_is_no_orbit_it_says_so():
     found = rk.frequency_response(period=[0.5, 1.0], amplitude=0.05, restitution=0.5)
     assert found.branches == ()
     assert "(1, 1) none found; (1, 3) none found; from rest 2 rest" in str(found)
-    assert found.to_xarray().sizes["point"] == 0
+    assert found.to_xarray().branch_number.values.tolist() == ["from rest"] * 2
 
 
 @pytest.mark.parametrize(

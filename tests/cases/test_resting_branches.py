@@ -169,9 +169,9 @@ def test_a_branch_answers_like_others(branches):
     assert orbit.system.forcing.amplitude == 1.04
     assert tuple(state) == pytest.approx((branch.orbit(0).at(0.5).angle, branch.orbit(0).at(0.5).velocity))
     dataset = branch.to_xarray()
-    assert "impacts" not in dataset.attrs
+    assert "impacts_per_period" not in dataset.attrs
     assert (dataset["stability"] == "stable").all()
-    assert dataset["multiplier_real"].values.max() == 0.0
+    assert dataset["multiplier_1_real"].values.max() == 0.0
 
 
 def test_curves_refuse_a_special_point_of_an_orbit_that_rests(branches):

@@ -43,8 +43,9 @@ def test_frequency_says_the_same_as_period(rocking):
 def test_base_motion_may_be_given_in_other_units(rocking, same, as_acceleration):
     other = json.loads(rocking(f"simulate --height 2 --width 0.5 {same} --cycles 3 --json")[2])
     line = f"simulate --height 2 --width 0.5 --acceleration {as_acceleration!r} --frequency-hz 1.25 --cycles 3 --json"
-    assert other["amplitude"] == pytest.approx(json.loads(rocking(line)[2])["amplitude"], rel=1e-14, abs=0)
-    assert other["period"] == pytest.approx(rk.Block(2, 0.5).time(0.8), rel=1e-14, abs=0)
+    key = "acceleration_m_per_s2"
+    assert other[key] == pytest.approx(json.loads(rocking(line)[2])[key], rel=1e-14, abs=0)
+    assert other["period_s"] == pytest.approx(0.8, rel=1e-14, abs=0)
 
 
 def test_overturning_is_told_with_its_time(rocking):
@@ -155,20 +156,6 @@ def test_rest_is_told(rocking):
     assert rocking("simulate --amplitude 0.5 --period 1 --restitution 0.9")[2].startswith("at rest")
 
 
-def test_json_agrees_with_the_motion_and_is_strict(rocking):
-    line = "--phase 1.8 --velocity 0.15 --cycles 20 --brace-angle 1 --brace-restitution 0.5"
-    code, _, out = rocking(f"simulate --amplitude 5.5 --period 0.5 --restitution 0.925 {line} --json")
-    system = rk.System(rk.Harmonic(5.5, period=0.5, phase=1.8), 0.925, rk.Braces(1.0, 0.5))
-    motion = rk.simulate(system, rk.State(velocity=0.15), cycles=20)
-    told = json.loads(out, parse_constant=pytest.fail)
-    assert code == 0
-    assert (told["outcome"], told["impacts"], told["cycles"]) == ("bounded", motion.impacts, 20)
-    assert told["final"] == pytest.approx(
-        {"angle": motion.final.angle, "velocity": motion.final.velocity}, rel=1e-12, abs=0
-    )
-    assert told["braces"] == {"angle": 1.0, "restitution": 0.5}
-
-
 def test_json_in_si_has_null_where_no_friction_suffices(rocking):
     # A block that is thrown so fast that the base would have to pull at it.
     _, _, out = rocking(f"simulate {SI} --velocity 30 --cycles 2 --json")
@@ -196,9 +183,6 @@ def test_csv_holds_the_motion_at_a_hundred_steps_a_cycle(rocking, tmp_path):
     times = np.arange(701) * system.forcing.period / 100
     angle, velocity = motion.at(np.minimum(times, motion.duration))
     expected = {
-        "time [1/alpha]": times,
-        "angle [theta_cr]": angle,
-        "velocity [alpha theta_cr]": velocity,
         "time [s]": np.arange(701) / 180,
         "angle [rad]": angle * np.arctan(0.25),
         "velocity [rad/s]": velocity * np.arctan(0.25) * block.frequency_parameter,

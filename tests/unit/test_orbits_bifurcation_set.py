@@ -233,7 +233,7 @@ def test_dataset_holds_points_of_codimension_two_of_every_curve():
     data = found.to_xarray()
     points = [(number, point) for number, curve in enumerate(found.curves) for point in curve.special]
     assert data.special_curve.values.tolist() == [number for number, _ in points]
-    assert data.special.values.tolist() == [point.kind for _, point in points]
+    assert data.special_kind.values.tolist() == [point.kind for _, point in points]
     assert data.special_amplitude.values.tolist() == [point.values[1] for _, point in points]
 
 

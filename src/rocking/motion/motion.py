@@ -188,6 +188,7 @@ def _attributes(motion: Trajectory) -> dict[str, Any]:
         "peak": motion.peak,
         "impacts": motion.impacts,
         "brace_hits": motion.brace_hits,
+        "impacts_cut_short": motion.record != "all",
         "final_angle": motion.final.angle,
         "final_velocity": motion.final.velocity,
     }
