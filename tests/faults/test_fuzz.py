@@ -157,9 +157,9 @@ def test_random_systems_run_to_the_end_of_their_budget(seed):
 @pytest.mark.long
 @pytest.mark.parametrize("tenth", range(10))
 def test_a_million_random_systems_run_to_the_end_of_their_budget(tenth, thin):
-    """Three in ten of them, unless all are wanted."""
+    """One in ten of them, unless all are wanted."""
     seeds = range(2 + 10 * tenth, 12 + 10 * tenth)
-    for seed in thin(seeds, 3, seed=tenth):
+    for seed in thin(seeds, 1, seed=tenth):
         assert run_many(seed, SYSTEMS) <= MAX_CROWDED
 
 
