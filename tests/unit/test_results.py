@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 import xarray as xr
+from attrs import evolve
 
 import rocking as rk
 from rocking.model.quantity import QUANTITIES
@@ -214,6 +215,30 @@ def test_result_of_a_block_is_in_si_by_default():
     assert found["frequency_hz"] == pytest.approx(1.2, rel=1e-15)
     assert not {"peak", "amplitude", "frequency"} & found.keys()
     assert motion.to_dict(units="normalised")["peak"] == motion.peak
+
+
+def test_text_and_figure_of_a_block_are_in_si():
+    motion = made("motion of a block")
+    assert f"peak |θ| {BLOCK.degrees(motion.peak):.4g}°" in str(motion)
+    assert "peak |Θ| " in str(made("motion"))
+    assert "acceleration 3.364 to 4.084 m/s²" in str(made("branch of a block"))
+    assert " per s over " in str(made("exponents of a block"))
+    labels = [made("branch of a block").plot(**given).get_xlabel() for given in ({}, {"units": "normalised"})]
+    assert ["m/s²" in label for label in labels] == [True, False]
+    assert rk.plot.branch(made("branch of a block"), block=None).get_xlabel() == labels[1]
+    assert "m/s²" in made("branch").plot(block=BLOCK).get_xlabel()
+
+
+def test_system_keeps_its_block_where_it_is_right():
+    assert (OF_BLOCK.block, SYSTEM.block) == (BLOCK, None)
+    assert evolve(OF_BLOCK, forcing=SYSTEM.forcing).block == BLOCK
+    assert evolve(OF_BLOCK, restitution=0.5).block == rk.Block(2.0, 0.5, 0.5)
+    assert evolve(OF_BLOCK, critical_angle=BLOCK.critical_angle).block == BLOCK
+    assert evolve(OF_BLOCK, critical_angle=0.3).block is None
+    without = evolve(OF_BLOCK, block=None)
+    assert (without, hash(without), repr(without)) == (OF_BLOCK, hash(OF_BLOCK), repr(OF_BLOCK))
+    with pytest.raises(TypeError, match="block must be a Block"):
+        rk.System(SYSTEM.forcing, 0.9, block=2.0)
 
 
 @pytest.mark.parametrize("method", ["to_xarray", "to_dict", "tables", "to_dataframe"])

@@ -804,7 +804,7 @@ rocking frequency-response --height 2 --width 0.5 --acceleration 4 \\
         ),
         outputs=(
             plot("Plot the points over the parameter"),
-            csv("Write one row per point, and one row per run that overturned"),
+            csv("Write one row per point, nan in runs that overturned"),
             NETCDF,
             JSON,
         ),

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 MAX_ROUNDING = 4
@@ -84,6 +85,17 @@ class Quantity(NamedTuple):
         if block is None or self.si is None or self.si.drawn is None:
             return (lambda _, values: np.asarray(values)), self.label
         return self.si.drawn, f"{self.si.label} ({self.si.drawn_unit})"
+
+    def printed(self, block: Any) -> tuple[str, Callable[[Any], Any], str]:
+        """Return the name, the conversion of values and the unit of the quantity in sentences; normalised if `block` is None."""
+        if block is None or self.si is None or self.si.drawn is None:
+            return self.name, _same, ""
+        unit = self.si.drawn_unit
+        return self.si.name, partial(self.si.drawn, block), unit if unit.startswith("°") else f" {unit}"
+
+
+def _same(values: Any) -> Any:
+    return values
 
 
 def _exact(conversion: Conversion) -> Conversion:

@@ -10,6 +10,7 @@ from attrs import frozen
 
 from rocking.model.block import Block
 from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
+from rocking.model.quantity import ANGLE, VELOCITY
 from rocking.model.result import Result, described
 from rocking.model.system import quantities
 from rocking.model.text import counted
@@ -368,16 +369,22 @@ class Motion(Trajectory, Result):
         return "proved for the computed motion; its rounding errors are not assessed"
 
     def __str__(self) -> str:
-        counts = [counted(self.impacts, "impact")]
+        counts, block = [counted(self.impacts, "impact")], self.block
         if self.system.braces is not None:
             counts.append(counted(self.brace_hits, "brace impact"))
         if self.overturning is None:
-            counts.append(f"peak |Θ| {self.peak:.4g}")
-            over = counted(self.cycles, "cycle") if self.cycles else f"τ = {self.duration:.6g}"
+            _, angle, unit = ANGLE.printed(block)
+            counts.append(f"peak |{'Θ' if block is None else 'θ'}| {angle(self.peak):.4g}{unit}")
+            over = counted(self.cycles, "cycle") if self.cycles else self._time(self.duration)
             how = f"{self.outcome} over {over}"
         else:
             since = ": overturning is certain" if self.certified else ""
-            how = f"overturned{since} from τ = {self.overturning.time:.6g}"
-        margin = "" if math.isnan(self.margin) else f", margin {self.margin:.4g}"
+            how = f"overturned{since} from {self._time(self.overturning.time)}"
+        _, velocity, unit = VELOCITY.printed(block)
+        margin = "" if math.isnan(self.margin) else f", margin {velocity(self.margin):.4g}{unit}"
         doubt = f" ({self.doubt})" if self.doubt else ""
         return f"{how}{doubt}; {', '.join(counts)}{margin}"
+
+    def _time(self, time: float) -> str:
+        """Return a time as text; in s if the block is known."""
+        return f"τ = {time:.6g}" if self.block is None else f"t = {self.block.seconds(time):.4g} s"

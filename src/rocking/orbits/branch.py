@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model.orbit import Orbit, Stability, stability_of
-from rocking.model.quantity import PHASE
+from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
 from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.system import System
 from rocking.model.validation import WrongType, whole, within
@@ -383,18 +383,23 @@ class Branch(ReadOnlyArrays, Result):
         return of_branch(self)
 
     def __str__(self) -> str:
-        low, high = float(self.points["parameter"].min()), float(self.points["parameter"].max())
+        name, of, unit = SYSTEM_QUANTITIES[self.name].printed(self.block)
+        low, high = (
+            of(float(end)) for end in (self.points["parameter"].min(), self.points["parameter"].max())
+        )
         symmetry = "symmetric" if self.symmetric else "asymmetric"
-        found = ", ".join(f"{one.kind} at {one.parameter:.6g}" for one in self.special) or "no special point"
+        found = ", ".join(f"{one.kind} at {of(one.parameter):.6g}{unit}" for one in self.special)
         return (
-            f"branch of {symmetry} orbits of period {self.period}, {self.name} {low:.6g} to {high:.6g}, "
-            f"{len(self)} points, {self._stable_ranges()}: {found}; ends: {self.ends[0]} | {self.ends[1]}"
+            f"branch of {symmetry} orbits of period {self.period}, {name} {low:.6g} to {high:.6g}{unit}, "
+            f"{len(self)} points, {self._stable_ranges(of, unit)}: {found or 'no special point'}; "
+            f"ends: {self.ends[0]} | {self.ends[1]}"
         )
 
-    def _stable_ranges(self) -> str:
+    def _stable_ranges(self, of: Callable[[Any], Any], unit: str) -> str:
         """Return the ranges of the parameter with stable or neutrally stable orbits, in order along the branch, as text."""
         said = [
-            f"{stability} " + " and ".join(_extent(f"{low:.6g}", f"{high:.6g}") for low, high in ranges)
+            f"{stability} "
+            + " and ".join(_extent(f"{of(low):.6g}", f"{of(high):.6g}", unit) for low, high in ranges)
             for stability in (Stability.STABLE, Stability.NEUTRAL)
             if (ranges := self._ranges_of(stability))
         ]
@@ -415,9 +420,9 @@ class Branch(ReadOnlyArrays, Result):
         return list(dict.fromkeys(ranges))
 
 
-def _extent(low: str, high: str) -> str:
+def _extent(low: str, high: str, unit: str) -> str:
     """Return a range of values in words; with six digits it may be a single value."""
-    return f"at {low}" if low == high else f"from {low} to {high}"
+    return f"at {low}{unit}" if low == high else f"from {low} to {high}{unit}"
 
 
 # Largest relative difference of the parameter, and of a phase in rad, between two passages of one special point.

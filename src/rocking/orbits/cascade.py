@@ -9,6 +9,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
+from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.result import ReadOnlyArrays, Result, read_only
 from rocking.model.text import counted, plus_minus
 from rocking.model.validation import Refusal, instance, whole
@@ -97,12 +98,14 @@ class Cascade(ReadOnlyArrays, Result):
         return super()._repr_html_() if len(self.special) > 1 else None
 
     def __str__(self) -> str:
-        name, values, periods = self.special[0].name, self.values, self.periods
-        limit, reached = "", f"at {values[0]:.9g}, period {periods[0]}"
+        name, of, unit = SYSTEM_QUANTITIES[self.special[0].name].printed(self.block)
+        values, periods = of(self.values), self.periods
+        limit, reached = "", f"at {values[0]:.9g}{unit}, period {periods[0]}"
         if len(values) > 1:
-            reached = f"{values[0]:.9g} to {values[-1]:.9g}, periods {periods[0]} to {periods[-1]}"
+            reached = f"{values[0]:.9g} to {values[-1]:.9g}{unit}, periods {periods[0]} to {periods[-1]}"
         if len(values) > 3:
-            limit = f", accumulation at {plus_minus(*self.accumulation)}, last ratio {self.ratios[-1]:.6g}"
+            accumulation = plus_minus(*map(of, self.accumulation))
+            limit = f", accumulation at {accumulation}{unit}, last ratio {self.ratios[-1]:.6g}"
         return f"cascade of {counted(len(values), 'period doubling')} over {name}, {reached}{limit}; end: {self.end}"
 
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
-from rocking.model.quantity import PHASE
+from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
 from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.system import State, System, check_constant_restitution, check_periodic
 from rocking.model.validation import TooManyEvents, check_progress, instance, one_of, whole
@@ -116,27 +116,26 @@ class OrbitDiagram(ReadOnlyArrays, Result):
         return self._data().drop_dims("cycle")
 
     def __str__(self) -> str:
-        values = self.values
-        span = (
-            f"{values[0]:.6g} to {values[-1]:.6g}, {len(values):,} values"
-            if len(values) > 1
-            else f"{values[0]:.6g}"
-        )
+        name, of, unit = SYSTEM_QUANTITIES[self.parameter].printed(self.block)
+        values = of(self.values)
+        span = f"{values[0]:.6g}{unit}"
+        if len(values) > 1:
+            span = f"{values[0]:.6g} to {values[-1]:.6g}{unit}, {len(values):,} values"
         overturnings = "; ".join(
-            _overturnings(way, fell, values) for way, fell in zip(self.sweeps, self.overturned, strict=True)
+            _overturnings(direction, fell, values, unit)
+            for direction, fell in zip(self.sweeps, self.overturned, strict=True)
         )
-        return f"orbit diagram over {self.parameter} {span}, {self.cycles:,} points each after {self.transient:,} cycles: {overturnings}"
+        return f"orbit diagram over {name} {span}, {self.cycles:,} points each after {self.transient:,} cycles: {overturnings}"
 
 
-def _overturnings(way: str, fell: np.ndarray, values: np.ndarray) -> str:
-    how = {"up": "swept up", "down": "swept down", "rest": "each from the initial state"}[way]
+def _overturnings(direction: str, fell: np.ndarray, values: np.ndarray, unit: str) -> str:
+    how = {"up": "swept up", "down": "swept down", "rest": "each from the initial state"}[direction]
     if not fell.any():
         return f"{how}, never overturned"
     found = values[fell]
-    where = f"at {found[0]:.6g}" if len(found) == 1 else f"from {found[0]:.6g} to {found[-1]:.6g}"
-    return (
-        f"{how}, overturned at {len(found):,} ({where})" if len(found) > 1 else f"{how}, overturned {where}"
-    )
+    if len(found) == 1:
+        return f"{how}, overturned at {found[0]:.6g}{unit}"
+    return f"{how}, overturned at {len(found):,} (from {found[0]:.6g} to {found[-1]:.6g}{unit})"
 
 
 SWEEPS = {"up": ("up",), "down": ("down",), "both": ("up", "down"), "rest": ("rest",)}

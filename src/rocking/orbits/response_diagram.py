@@ -11,6 +11,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
+from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
 from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import check_progress, instance, one_of
@@ -149,16 +150,17 @@ class ResponseDiagram(ReadOnlyArrays, Result):
         return xr.Dataset(variables, {name: coordinate_of(name, name, self.values)}, attributes)
 
     def __str__(self) -> str:
-        values = self.values
-        span = f"{values[0]:.6g}"
+        name, of, unit = SYSTEM_QUANTITIES[self.parameter].printed(self.block)
+        values = of(self.values)
+        span = f"{values[0]:.6g}{unit}"
         if len(values) > 1:
-            span += f" to {values[-1]:.6g}, {len(values):,} values"
+            span = f"{values[0]:.6g} to {values[-1]:.6g}{unit}, {len(values):,} values"
         start = f"Θ = {self.start.angle:.6g}, Θ' = {self.start.velocity:.6g}"
         counts = [(kind, int((self.kind == kind.value).sum())) for kind in Kind]
         found = ", ".join(
             f"{count:,} {kind}{self._periods() * (kind is Kind.PERIODIC)}" for kind, count in counts if count
         )
-        return f"response diagram over {self.parameter} {span}, each from {start}: {found}"
+        return f"response diagram over {name} {span}, each from {start}: {found}"
 
     def _periods(self) -> str:
         found = np.unique(self.period[self.period > 0]).tolist()

@@ -165,7 +165,7 @@ def branch(
     phase : float
         Forcing phase ψ of the section, rad. Default: 0.
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -283,7 +283,7 @@ def cascade(result: Cascade, ax: Axes | None = None, block: Block | None = None)
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes and a title. Default: normalised axes.
+        Block for SI axes and a title. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -377,7 +377,7 @@ def orbits(
     phase : float, optional
         Forcing phase ψ of the section, rad. Default: the phase of the forcing.
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -450,7 +450,7 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------

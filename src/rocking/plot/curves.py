@@ -71,7 +71,7 @@ def bifurcation_curve(
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -140,7 +140,7 @@ def bifurcation_set(result: BifurcationSet, ax: Axes | None = None, block: Block
         Axes to draw into, for example those of `parametric_map` over the same parameters. Default: a new figure, one column
         wide.
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------

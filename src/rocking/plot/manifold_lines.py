@@ -28,7 +28,7 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes, degrees and degrees per second. Default: normalised axes.
+        Block for SI axes, degrees and degrees per second. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -109,7 +109,7 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
     ax : matplotlib Axes, optional
         Axes to draw into, for example those of `basins`, which shows the phase φ of the forcing. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------

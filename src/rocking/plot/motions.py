@@ -145,7 +145,7 @@ def time_history(
         Axes to draw into. Default: a new figure, one column wide. Under a base motion of finite length it has a second
         panel, with the base acceleration.
     block : Block, optional
-        Block for SI axes, seconds and degrees. Default: normalised axes.
+        Block for SI axes, seconds and degrees. Default: that of the result. None: normalised axes.
     cycles : tuple of float, optional
         First and last forcing cycle shown, counted from the start. Default: the whole motion; if it overturned, up to
         three times the critical angle, or until it lies flat with the full equation. Omit it for a base motion of finite length.
@@ -310,7 +310,7 @@ def phase_portrait(
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes, degrees and degrees per second. Default: normalised axes.
+        Block for SI axes, degrees and degrees per second. Default: that of the result. None: normalised axes.
     cycles : tuple of float, optional
         First and last forcing cycle shown, counted from the start. Default: the whole motion; if it overturned, up to
         three times the critical angle, or until it lies flat with the full equation.
@@ -413,7 +413,7 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
     motion : Motion
         Motion with any setting of ``record``.
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------

@@ -34,7 +34,7 @@ def section(
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes, degrees and degrees per second. Default: normalised axes.
+        Block for SI axes, degrees and degrees per second. Default: that of the result. None: normalised axes.
     phase : float, optional
         Forcing phase ψ of the section, rad. Default: the phase of the forcing, at which the motion started.
     transient : int
@@ -126,7 +126,7 @@ def impact_section(
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for the speed in degrees per second. Default: normalised speed.
+        Block for the speed in degrees per second. Default: that of the result. None: normalised speed.
     transient : int
         Number of forcing cycles discarded at the start. Default: 0.
 

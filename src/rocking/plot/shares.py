@@ -127,7 +127,7 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes and a title. Default: normalised axes.
+        Block for SI axes and a title. Default: that of the result. None: normalised axes.
 
     Returns
     -------

@@ -93,7 +93,7 @@ def spectrum(
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for hertz and square degrees per hertz. Default: normalised axes.
+        Block for hertz and square degrees per hertz. Default: that of the result. None: normalised axes.
     highest : float
         Highest frequency shown, as a multiple of the forcing frequency, in [0.1, 1000]. Default: 3.
     names : int

@@ -39,7 +39,7 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes and a title. Default: normalised axes.
+        Block for SI axes and a title. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -143,7 +143,7 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None, block: Block | None = N
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes and a title. Default: normalised axes.
+        Block for SI axes and a title. Default: that of the result. None: normalised axes.
 
     Returns
     -------

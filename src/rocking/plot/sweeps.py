@@ -59,7 +59,7 @@ def orbit_diagram(
     quantity : {"angle", "velocity", "peak"}
         Quantity to draw: Θ or Θ' at the section, or the largest |Θ| between sections. Default: "angle".
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -219,7 +219,7 @@ def response_diagram(result: ResponseDiagram, block: Block | None = None) -> Fig
     result : ResponseDiagram
         Result of `rocking.response_diagram`.
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------

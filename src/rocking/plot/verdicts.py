@@ -54,7 +54,7 @@ def verdict(verdict: Verdict, block: Block | None = None, *, title: bool = True)
     verdict : Verdict
         Result of `classify`.
     block : Block, optional
-        Block for SI axes. Default: normalised axes.
+        Block for SI axes. Default: that of the result. None: normalised axes.
     title : bool
         Whether the text of the verdict stands above. A notebook shows it below the figure. Default: True.
 

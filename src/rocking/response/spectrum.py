@@ -210,6 +210,10 @@ class SpectralDensity(ReadOnlyArrays, Result):
         return xr.Dataset(variables, {"cyclic_frequency": frequency}, attributes)
 
     def __str__(self) -> str:
+        block = self.block
+        resolution = f"{self.resolution:.3g} cycles per τ"
+        if block is not None:
+            resolution = f"{self.resolution / block.seconds(1.0):.3g} Hz"
         unnamed = sum(not peak.name for peak in self.peaks)
         what = "broad band" if self.broad_band else "lines"
         names = ", ".join(peak.name for peak in self.peaks[:5] if peak.name) or "none named"
@@ -221,7 +225,7 @@ class SpectralDensity(ReadOnlyArrays, Result):
             f"{turning}; {unnamed} unnamed) {'carries' if one else 'carry'} {100 * self.line_share:.4g} % of the variance; "
             f"{counted(self.segments, 'segment')} of {self.segment} cycles{shared}, "
             f"window {self.window}, {self.samples} samples per cycle, {self.aliased:.1g} of the variance aliased, "
-            f"resolution {self.resolution:.3g} cycles per τ"
+            f"resolution {resolution}"
         )
 
 
