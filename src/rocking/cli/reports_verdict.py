@@ -24,7 +24,7 @@ from rocking.cli.reports_motion import validity_lines, validity_motion, validity
 from rocking.model.block import Block
 from rocking.model.orbit import Mode
 from rocking.model.proof import Proof
-from rocking.model.result import Result, described
+from rocking.model.result import Result, along, described
 from rocking.model.system import System, quantities
 from rocking.model.text import counted, plus_minus
 from rocking.model.verdict import Verdict
@@ -182,25 +182,22 @@ class Modes(Result):
 
         modes = self.modes
 
-        def column(text: str, values: list[Any], unit: str = "1") -> tuple[str, list[Any], dict[str, str]]:
-            return "mode", values, {"long_name": text} | ({"units": unit} if unit else {})
-
-        variables = {
-            "velocity": column("speed after the impact", [each.velocity for each in modes]),
-            "phase": column("forcing phase at the impact", [each.phase for each in modes], "rad"),
-            "trace": column("trace of the half-cycle map", [each.trace for each in modes]),
-            **multipliers("mode", np.array([each.multipliers for each in modes], complex).reshape(-1, 2)),
-            "peak": column("largest angle", [math.nan if each.peak is None else each.peak for each in modes]),
-            "stability": column("stability", [str(each.stability) for each in modes], ""),
-            "admissible": column("whether the mode is a motion", [each.admissible for each in modes], ""),
+        columns = {
+            "velocity": ([each.velocity for each in modes], "speed after the impact"),
+            "phase": ([each.phase for each in modes], "forcing phase at the impact", "rad"),
+            "trace": ([each.trace for each in modes], "trace of the half-cycle map"),
+            **multipliers(np.array([each.multipliers for each in modes], complex).reshape(-1, 2)),
+            "peak": ([math.nan if each.peak is None else each.peak for each in modes], "largest angle"),
+            "stability": (np.array([str(each.stability) for each in modes], str), "stability"),
+            "admissible": (
+                np.array([each.admissible for each in modes], bool),
+                "whether the mode is a motion",
+            ),
         }
-        names = {"mode": column("the faster or the slower mode", list(NAMES[: len(modes)]), "")}
+        names = {"mode": (np.array(NAMES[: len(modes)], str), "the faster or the slower mode")}
         attributes = described("Symmetric modes") | quantities(self.system) | {"n": self.n}
-        return xr.Dataset(
-            variables,
-            names,
-            attributes | {f"{name}_amplitude": each for name, each in self.amplitudes.items()},
-        )
+        attributes |= {f"{name}_amplitude": each for name, each in self.amplitudes.items()}
+        return xr.Dataset(along("mode", columns), along("mode", names), attributes)
 
     def __str__(self) -> str:
         name, amplitude, begins = (

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, fields, frozen
 
-from rocking.model.result import Result, described
+from rocking.model.result import Result, along, described
 from rocking.model.share import Share, share_variables
 from rocking.model.system import System, quantities
 
@@ -98,16 +98,12 @@ class Proof(Result):
         import xarray as xr
 
         attributes = described("Proof of a periodic orbit") | quantities(self.system) | self.facts
-        names = {
-            "phase": "middle of the forcing phase of the event",
-            "phase_radius": "radius of the forcing phase",
+        middles, radii = np.array(self.phases, float).reshape(-1, 2).T
+        columns = {
+            "phase": (middles, "middle of the forcing phase of the event", "rad"),
+            "phase_radius": (radii, "radius of the forcing phase", "rad"),
         }
-        values = np.array(self.phases, float).reshape(-1, 2).T
-        variables = {
-            name: ("event", column, {"long_name": text, "units": "rad"})
-            for (name, text), column in zip(names.items(), values, strict=True)
-        }
-        return xr.Dataset(variables, attrs=attributes)
+        return xr.Dataset(along("event", columns), attrs=attributes)
 
     def __str__(self) -> str:
         return f"{'proved' if self.proved else 'not proved'}: {self.claim}"
@@ -192,21 +188,13 @@ class ProvedShare(Result):
     def _data(self) -> xr.Dataset:
         import xarray as xr
 
-        names = "proved", ["orbits", "starts"], {"long_name": "what is proved"}
+        names = along("proved", {"proved": (["orbits", "starts"], "what is proved")})
         reasons = {
-            "reason": (
-                "reason",
-                np.array(list(self.reasons), str),
-                {"long_name": "reason why there is no proof"},
-            ),
-            "reason_count": (
-                "reason",
-                list(self.reasons.values()),
-                {"long_name": "number of responses", "units": "1"},
-            ),
+            "reason": (np.array(list(self.reasons), str), "reason why there is no proof"),
+            "reason_count": (np.array(list(self.reasons.values()), int), "number of responses"),
         }
         shares = share_variables("proved", (self.orbits, self.starts))
-        return xr.Dataset(shares | reasons, {"proved": names}, described("Proved periodic responses"))
+        return xr.Dataset(shares | along("reason", reasons), names, described("Proved periodic responses"))
 
     def __str__(self) -> str:
         text = f"{self.orbits.of} periodic responses; orbits proved: {self.orbits}; initial states proved: {self.starts}"

@@ -6,12 +6,12 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from attrs import field, fields, frozen
+from attrs import field, frozen
 
 from rocking.model.block import Block
 from rocking.model.ground_motion import MAX_FACTOR, GroundMotion
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
-from rocking.model.result import Result
+from rocking.model.result import Result, along
 from rocking.model.text import counted, percent, percent_with_ends
 from rocking.model.validation import Refusal, TooShort, real, reals, refuse_if, whole, within
 from rocking.model.verdict import Outcome
@@ -95,18 +95,16 @@ class LognormalFit:
 
 
 FIT = {
-    name: {"long_name": text, "units": "1"}
-    for name, text in {
-        "median": "level that half of the rocking runs exceed",
-        "median_low": "lower end of the 95 % interval of the median",
-        "median_high": "upper end of the 95 % interval of the median",
-        "dispersion": "standard deviation of the logarithm of the level",
-        "dispersion_low": "lower end of the 95 % interval of the dispersion",
-        "dispersion_high": "upper end of the 95 % interval of the dispersion",
-        "misfit": "largest distance between a fraction and the fit",
-    }.items()
-} | {"problem": {"long_name": "reason why there is no fit"}}
-"""Attributes of the variables of the fits."""
+    "median": "level that half of the rocking runs exceed",
+    "median_low": "lower end of the 95 % interval of the median",
+    "median_high": "upper end of the 95 % interval of the median",
+    "dispersion": "standard deviation of the logarithm of the level",
+    "dispersion_low": "lower end of the 95 % interval of the dispersion",
+    "dispersion_high": "upper end of the 95 % interval of the dispersion",
+    "misfit": "largest distance between a fraction and the fit",
+    "problem": "reason why there is no fit",
+}
+"""Descriptions of the variables of the fits."""
 
 
 def _with_ends(value: float, low: float, high: float, unit: str = "") -> str:
@@ -154,12 +152,10 @@ class Fragility(Result):
     def _data(self) -> xr.Dataset:
         """Return the dataset with the curves first, and the fits over `limit`."""
         curves = [name for name, each in self.dataset.data_vars.items() if "limit" in each.dims]
-        columns = {
-            each.name: ("limit", [getattr(fit, each.name) for fit in self.fits], FIT[each.name])
-            for each in fields(LognormalFit)
-            if each.name in FIT
-        }
-        data = self.dataset[curves].assign(columns).merge(self.dataset, combine_attrs="override")
+        columns = {name: ([getattr(fit, name) for fit in self.fits], text) for name, text in FIT.items()}
+        data = (
+            self.dataset[curves].assign(along("limit", columns)).merge(self.dataset, combine_attrs="override")
+        )
         return data.assign_attrs(unit=data.scale.attrs["units"], undecided=int((data.certified == 0).sum()))
 
     def fit(self, limit: float = math.inf) -> LognormalFit:
@@ -377,19 +373,22 @@ class OverturningSet(Result):
 
     def _data(self) -> xr.Dataset:
         """Return the dataset with the switches first, the names of their records, and the intervals of each record."""
-        data, unit = self.dataset, {"units": self.measure.unit or "1"}
-        names = "switch", np.array(self.records.names)[data["switch_record"].values], {"long_name": "record"}
+        data, unit = self.dataset, self.measure.unit or "1"
+        names = np.array(self.records.names)[data["switch_record"].values]
         switches = [name for name, each in data.data_vars.items() if "switch" in each.dims]
         intervals = [self.intervals(number) for number in range(len(self.records))]
-        numbers = np.repeat(np.arange(len(intervals)), [len(each) for each in intervals])
-        ends = np.concatenate(intervals)
-        first = data[switches].assign(
-            switch_name=names,
-            interval_record=("interval", numbers, {"long_name": "number of the record", "units": "1"}),
-            interval_low=("interval", ends[:, 0], {"long_name": "lowest overturning level"} | unit),
-            interval_high=("interval", ends[:, 1], {"long_name": "highest overturning level"} | unit),
-        )
-        facts = {"unit": unit["units"], "spacing": self.spacing}
+        low, high = np.concatenate(intervals).T
+        columns = {
+            "interval_record": (
+                np.repeat(np.arange(len(intervals)), [len(each) for each in intervals]),
+                "number of the record",
+            ),
+            "interval_low": (low, "lowest overturning level", unit),
+            "interval_high": (high, "highest overturning level", unit),
+        }
+        first = data[switches].assign(along("switch", {"switch_name": (names, "record")}))
+        first = first.assign(along("interval", columns))
+        facts = {"unit": unit, "spacing": self.spacing}
         return first.merge(data, combine_attrs="override").assign_attrs(facts)
 
     def _summary(self) -> xr.Dataset:

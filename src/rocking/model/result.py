@@ -44,9 +44,18 @@ class ReadOnlyArrays:
         return partial(type(self), **{each.alias: getattr(self, each.name) for each in fields}), ()
 
 
-def named(text: str) -> dict[str, str]:
-    """Return the attributes of a normalised variable."""
-    return {"long_name": text, "units": "1"}
+def along(dimension: str | tuple[str, ...], columns: Mapping[str, tuple[Any, ...]]) -> dict[str, Any]:
+    """Return variables of a dataset from their values, descriptions and units, or attributes in place of both.
+
+    The unit is "1", for a normalised variable, if it is not given. Words and flags have none.
+    """
+    variables = {}
+    for name, (values, text, *unit) in columns.items():
+        array = np.asarray(values)
+        units = {} if array.dtype.kind in "bSU" else {"units": unit[0] if unit else "1"}
+        attributes = text if isinstance(text, dict) else {"long_name": text} | units
+        variables[name] = dimension, array, attributes
+    return variables
 
 
 def described(what: str) -> dict[str, object]:

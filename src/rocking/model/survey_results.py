@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from attrs import field, frozen
 
 from rocking.model.orbit import Orbit
 from rocking.model.quantity import LOWEST
-from rocking.model.result import Result, described
+from rocking.model.result import Result, along, described
 from rocking.model.share import Share, share_variables
 from rocking.model.system import State, System, quantities
 from rocking.model.verdict import Kind, Verdict
@@ -193,8 +193,8 @@ class Repeatability(Result):
             "kind", self.kinds.values()
         )
         names = {
-            "response": ("response", list(self.responses), {"long_name": "response"}),
-            "kind": ("kind", [str(kind) for kind in self.kinds], {"long_name": "type of the response"}),
+            **along("response", {"response": (list(self.responses), "response")}),
+            **along("kind", {"kind": ([str(kind) for kind in self.kinds], "type of the response")}),
         }
         attributes = described("Repeatability") | {
             **quantities(self.system),
@@ -424,26 +424,23 @@ class BasinMap(Result):
     def _data(self) -> xr.Dataset:
         """Return the dataset with the basins over `basin`, and the exponents as attributes."""
         verdicts = [each.verdict for each in self.attractors]
-        columns: dict[str, tuple[str, list[Any]]] = {
-            "name": ("name of the attractor", [each.name for each in self.attractors]),
-            "kind": ("type of the response", [str(each.kind) for each in verdicts]),
-            "response_period": (
-                "forcing cycles per response period; 0: not periodic",
+        counts = [-1 if each.impacts_per_period is None else each.impacts_per_period for each in verdicts]
+        columns = {
+            "basin_name": ([each.name for each in self.attractors], "name of the attractor"),
+            "basin_kind": ([str(each.kind) for each in verdicts], "type of the response"),
+            "basin_response_period": (
                 [each.period or 0 for each in verdicts],
+                "forcing cycles per response period; 0: not periodic",
             ),
-            "impacts_per_period": (
-                "impacts per period; -1: not periodic, or infinitely many",
-                [-1 if each.impacts_per_period is None else each.impacts_per_period for each in verdicts],
-            ),
-            "start_angle": (
-                "angle of an initial state of the basin",
+            "basin_impacts_per_period": (counts, "impacts per period; -1: not periodic, or infinitely many"),
+            "basin_start_angle": (
                 [each.start.angle for each in verdicts],
+                "angle of an initial state of the basin",
             ),
-            "start_velocity": ("velocity of this initial state", [each.start.velocity for each in verdicts]),
-        }
-        variables = {
-            f"basin_{name}": ("basin", values, {"long_name": text})
-            for name, (text, values) in columns.items()
+            "basin_start_velocity": (
+                [each.start.velocity for each in verdicts],
+                "velocity of this initial state",
+            ),
         }
         exponents = {
             "uncertainty_exponent": self.uncertainty_exponent,
@@ -460,9 +457,9 @@ class BasinMap(Result):
                 ("_meaning", "meaning"),
             )
         }
-        return self.dataset.assign(variables | share_variables("basin", self.fractions)).assign_attrs(
-            attributes
-        )
+        return self.dataset.assign(
+            along("basin", columns) | share_variables("basin", self.fractions)
+        ).assign_attrs(attributes)
 
     @property
     def safe(self) -> Share:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.model.forcing import Harmonic
 from rocking.model.orbit import Mode, Orbit
 from rocking.model.quantity import AMPLITUDE
-from rocking.model.result import ReadOnlyArrays, Result, described, read_only
+from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
 from rocking.model.system import System
 from rocking.model.validation import Refusal, WrongType, exactly_one, reals, refuse_if, whole, within
 from rocking.model.verdict import Kind
@@ -97,89 +97,18 @@ class FrequencyResponse(ReadOnlyArrays, Result):
     def _data(self) -> xr.Dataset:
         import xarray as xr
 
-        name, branches = self.parameter, self.branches
-        lengths = [len(branch) for branch in branches]
-        rest = self.rest
-        kinds, counts = np.unique(rest["kind"], return_counts=True)
-        special = [(number, one) for number, branch in enumerate(branches) for one in branch.special]
-        places = [int(np.nanargmax(branch.points["peak"])) for branch in branches]
-        highest = [branch.points[place] for branch, place in zip(branches, places, strict=True)]
-
-        def along(dimension: str, values: Any, text: str, unit: str = "1") -> tuple[str, Any, dict[str, str]]:
-            return dimension, values, {"long_name": text} | ({"units": unit} if unit else {})
-
-        def points(column: str, of_rest: Any) -> Any:
-            return np.concatenate([*(branch.points[column] for branch in branches), of_rest])
-
-        def repeated(values: list[Any], of_rest: Any) -> Any:
-            return np.concatenate([np.repeat(np.array(values), lengths), of_rest])
-
-        empty = np.full(len(rest), "", "U16")
-        variables = {
-            "branch_number": along(
-                "point",
-                repeated([f"{k}" for k in range(len(branches))], np.full(len(rest), "from rest")),
-                "number of the branch",
-                "",
-            ),
-            "orbit_period": along(
-                "point",
-                repeated([one.period for one in branches], rest["period"]).astype(int),
-                "forcing cycles per response period; 0 if not periodic",
-            ),
-            "stability": along(
-                "point", points("stability", empty).astype("U8"), "stability of the orbit", ""
-            ),
-            "response": along(
-                "point",
-                repeated([""] * len(branches), rest["kind"]).astype("U16"),
-                "type of the response from rest",
-                "",
-            ),
-            "peak": along(
-                "point",
-                points("peak", self.steady_peak),
-                "largest magnitude of the angle of the orbit or response",
-            ),
-            "branch_mode": along("branch", [one.period for one in branches], "n of the (1, n) orbits"),
-            "branch_symmetric": along(
-                "branch",
-                np.array([one.symmetric for one in branches], bool),
-                "whether the orbits are symmetric",
-                "",
-            ),
-            "branch_points": along("branch", lengths, "number of points"),
-            "branch_stable_points": along(
-                "branch", [int(one.points["stable"].sum()) for one in branches], "number of stable orbits"
-            ),
-            "branch_peak": along(
-                "branch", [float(one["peak"]) for one in highest], "largest magnitude of the angle"
-            ),
-            f"branch_{name}": along(
-                "branch", [float(one["parameter"]) for one in highest], f"{name} of this angle"
-            ),
-            "branch_first_end": along(
-                "branch", [one.ends[0] for one in branches], "reason why the branch begins", ""
-            ),
-            "branch_last_end": along(
-                "branch", [one.ends[1] for one in branches], "reason why the branch ends", ""
-            ),
-            "special_branch": along(
-                "special", np.array([number for number, _ in special], int), "number of the branch"
-            ),
-            "special_kind": along(
-                "special", np.array([one.kind for _, one in special], "U17"), "type of the special point", ""
-            ),
-            f"special_{name}": along(
-                "special",
-                np.array([one.parameter for _, one in special], float),
-                f"{name} of the special point",
-            ),
-            "rest_count": along("rest", counts, "number of responses from rest of the type"),
-        }
+        name = self.parameter
+        kinds, counts = np.unique(self.rest["kind"], return_counts=True)
+        types = {"rest": (kinds.astype("U16"), "type of the response from rest")}
         coordinates = {
-            name: coordinate_of("point", name, points("parameter", self.values)),
-            "rest": ("rest", kinds.astype("U16"), {"long_name": "type of the response from rest"}),
+            name: coordinate_of("point", name, self._joined("parameter", self.values)),
+            **along("rest", types),
+        }
+        variables = {
+            **along("point", self._points()),
+            **along("branch", self._branches()),
+            **along("special", self._special_points()),
+            **along("rest", {"rest_count": (counts, "number of responses from rest of the type")}),
         }
         attributes = described("Frequency response") | {
             "parameter": name,
@@ -191,6 +120,76 @@ class FrequencyResponse(ReadOnlyArrays, Result):
             "modes": list(self.modes),
         }
         return xr.Dataset(variables, coordinates, attributes)
+
+    def _joined(self, column: str, of_rest: Any) -> NDArray[Any]:
+        """Return a column of the points of all branches, then of the responses from rest."""
+        return np.concatenate([*(branch.points[column] for branch in self.branches), of_rest])
+
+    def _points(self) -> dict[str, tuple[Any, ...]]:
+        """Return the columns of the points of all branches and of the responses from rest."""
+        lengths, rest = [len(branch) for branch in self.branches], self.rest
+        numbers = np.repeat([f"{number}" for number in range(len(lengths))] or [""], lengths or [0])
+        periods = np.repeat([branch.period for branch in self.branches] or [0], lengths or [0])
+        none = np.full(sum(lengths), "")
+        return {
+            "branch_number": (np.append(numbers, np.full(len(rest), "from rest")), "number of the branch"),
+            "orbit_period": (
+                np.append(periods, rest["period"]),
+                "forcing cycles per response period; 0 if not periodic",
+            ),
+            "stability": (self._joined("stability", np.full(len(rest), "", "U8")), "stability of the orbit"),
+            "response": (np.append(none, rest["kind"]).astype("U16"), "type of the response from rest"),
+            "peak": (
+                self._joined("peak", self.steady_peak),
+                "largest magnitude of the angle of the orbit or response",
+            ),
+        }
+
+    def _branches(self) -> dict[str, tuple[Any, ...]]:
+        """Return the columns of the branches, with the point of the largest angle of each."""
+        branches, name = self.branches, self.parameter
+        highest = [branch.points[int(np.nanargmax(branch.points["peak"]))] for branch in branches]
+        return {
+            "branch_mode": (np.array([one.period for one in branches], int), "n of the (1, n) orbits"),
+            "branch_symmetric": (
+                np.array([one.symmetric for one in branches], bool),
+                "whether the orbits are symmetric",
+            ),
+            "branch_points": (np.array([len(one) for one in branches], int), "number of points"),
+            "branch_stable_points": (
+                np.array([one.points["stable"].sum() for one in branches], int),
+                "number of stable orbits",
+            ),
+            "branch_peak": (
+                np.array([one["peak"] for one in highest], float),
+                "largest magnitude of the angle",
+            ),
+            f"branch_{name}": (
+                np.array([one["parameter"] for one in highest], float),
+                f"{name} of this angle",
+            ),
+            "branch_first_end": (
+                np.array([one.ends[0] for one in branches], str),
+                "reason why the branch begins",
+            ),
+            "branch_last_end": (
+                np.array([one.ends[1] for one in branches], str),
+                "reason why the branch ends",
+            ),
+        }
+
+    def _special_points(self) -> dict[str, tuple[Any, ...]]:
+        """Return the columns of the special points of all branches."""
+        found = [(number, one) for number, branch in enumerate(self.branches) for one in branch.special]
+        name = self.parameter
+        return {
+            "special_branch": (np.array([number for number, _ in found], int), "number of the branch"),
+            "special_kind": (np.array([one.kind for _, one in found], "U17"), "type of the special point"),
+            f"special_{name}": (
+                np.array([one.parameter for _, one in found], float),
+                f"{name} of the special point",
+            ),
+        }
 
     @property
     def steady_peak(self) -> NDArray[np.float64]:

@@ -16,7 +16,7 @@ from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
 from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
-from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
 from rocking.model.system import State, System, check_constant_restitution, check_periodic
 from rocking.model.validation import TooManyEvents, check_progress, instance, one_of, whole
 from rocking.motion.march_loop import start_march
@@ -89,15 +89,17 @@ class OrbitDiagram(ReadOnlyArrays, Result):
         import xarray as xr
 
         name = self.parameter
-        each, all_cycles = ("sweep", name), ("sweep", name, "cycle")
-        variables = {
-            "angle": (all_cycles, self.points[..., 0], named("angle at the section")),
-            "velocity": (all_cycles, self.points[..., 1], named("angular velocity at the section")),
-            "peak": (each, self.peak, named("largest magnitude of the angle after the transient")),
-            "overturned": (each, self.overturned, {"long_name": "whether overturning is proved"}),
+        sections = {
+            "angle": (self.points[..., 0], "angle at the section"),
+            "velocity": (self.points[..., 1], "angular velocity at the section"),
         }
+        runs = {
+            "peak": (self.peak, "largest magnitude of the angle after the transient"),
+            "overturned": (self.overturned, "whether overturning is proved"),
+        }
+        variables = along(("sweep", name, "cycle"), sections) | along(("sweep", name), runs)
         coordinates = {
-            "sweep": ("sweep", np.array(self.sweeps), {"long_name": "order of the values"}),
+            **along("sweep", {"sweep": (self.sweeps, "order of the values")}),
             name: coordinate_of(name, name, self.values),
             "cycle": ("cycle", np.arange(self.cycles), {"long_name": "forcing cycles since the transient"}),
         }

@@ -12,7 +12,7 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.quantity import SYSTEM_QUANTITIES
-from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
 from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import check_progress, instance, one_of
 from rocking.model.verdict import Kind, Verdict
@@ -119,26 +119,18 @@ class ResponseDiagram(ReadOnlyArrays, Result):
         import xarray as xr
 
         name = self.parameter
-        levels = [verdict.evidence.level for verdict in self.verdicts]
-        variables = {
-            "kind": kinds_of(name, self.kind.tolist(), "type of the response"),
-            "orbit_period": (
-                name,
-                self.period,
-                named("forcing cycles per response period; 0 if not periodic"),
-            ),
-            "symmetric": (name, self.symmetric, {"long_name": "whether the response is symmetric"}),
-            "exponent": (name, self.exponent, named("largest Lyapunov exponent per tau")),
-            "exponent_error": (
-                name,
-                self.exponent_error,
-                named("error of the largest Lyapunov exponent per tau"),
-            ),
-            "rotation": (name, self.rotation, named("rotation number: mean number of impacts per cycle")),
-            "rotation_error": (name, self.rotation_error, named("error of the rotation number")),
-            "evidence": (name, np.array(self.evidence), {"long_name": "evidence of the verdict"}),
-            "level": (name, np.array(levels), {"long_name": "level of the evidence"}),
+        columns = {
+            "orbit_period": (self.period, "forcing cycles per response period; 0 if not periodic"),
+            "symmetric": (self.symmetric, "whether the response is symmetric"),
+            "exponent": (self.exponent, "largest Lyapunov exponent per tau"),
+            "exponent_error": (self.exponent_error, "error of the largest Lyapunov exponent per tau"),
+            "rotation": (self.rotation, "rotation number: mean number of impacts per cycle"),
+            "rotation_error": (self.rotation_error, "error of the rotation number"),
+            "evidence": (self.evidence, "evidence of the verdict"),
+            "level": ([verdict.evidence.level for verdict in self.verdicts], "level of the evidence"),
         }
+        kinds = kinds_of(name, self.kind.tolist(), "type of the response")
+        variables = {"kind": kinds} | along(name, columns)
         attributes = described("Response diagram") | {
             "parameter": name,
             "start_angle": self.start.angle,

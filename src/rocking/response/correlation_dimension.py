@@ -9,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
 from rocking.model.validation import Refusal, Text, TooShort, WrongType, reals, refuse_if
 from rocking.motion.motion import Motion
 
@@ -303,16 +303,12 @@ class CorrelationDimension(ReadOnlyArrays, Result):
     def _data(self) -> xr.Dataset:
         import xarray as xr
 
-        variables = {
-            "correlation_sum": ("radius", self.sums, named("fraction of pairs within the radius")),
-            "slope": (
-                "interval",
-                self.slopes,
-                named("slope of ln C against ln r between neighbouring radii"),
-            ),
-            "slope_error": ("interval", self.slope_errors, named("standard error of the slope")),
+        sums = {"correlation_sum": (self.sums, "fraction of pairs within the radius")}
+        slopes = {
+            "slope": (self.slopes, "slope of ln C against ln r between neighbouring radii"),
+            "slope_error": (self.slope_errors, "standard error of the slope"),
         }
-        radius = "radius", self.radii, named("radius in standard deviations of each coordinate")
+        radius = {"radius": (self.radii, "radius in standard deviations of each coordinate")}
         attributes = described("Correlation dimension of the motion") | {
             "value": self.value,
             "interval_ends": list(self.interval),
@@ -322,7 +318,8 @@ class CorrelationDimension(ReadOnlyArrays, Result):
             "decades": self.decades,
             "isolated": self.isolated or 0,
         }
-        return xr.Dataset(variables, {"radius": radius}, attributes)
+        variables = along("radius", sums) | along("interval", slopes)
+        return xr.Dataset(variables, along("radius", radius), attributes)
 
     def _repr_html_(self) -> str | None:
         return None if self.isolated else super()._repr_html_()

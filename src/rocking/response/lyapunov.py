@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import evolve, field, frozen
 
-from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
 from rocking.model.system import NO_BRACES, State, System, check_periodic, quantities
 from rocking.model.text import counted, plus_minus
 from rocking.model.validation import TooShort, whole
@@ -156,24 +156,18 @@ class LyapunovSpectrum(ReadOnlyArrays, Result):
         import xarray as xr
 
         history = self._final if self.superstable else self.history
-        running = ("cycles", "direction")
-        variables = {
-            "exponent": ("direction", self.values, named("Lyapunov exponent per tau")),
-            "exponent_error": ("direction", self.errors, named("error of the Lyapunov exponent per tau")),
-            "running_exponent": (
-                running,
-                history["values"],
-                named("running estimate of the Lyapunov exponent per tau"),
-            ),
-            "running_exponent_error": (
-                running,
-                history["errors"],
-                named("error of the running estimate per tau"),
-            ),
+        results = {
+            "exponent": (self.values, "Lyapunov exponent per tau"),
+            "exponent_error": (self.errors, "error of the Lyapunov exponent per tau"),
         }
+        estimates = {
+            "running_exponent": (history["values"], "running estimate of the Lyapunov exponent per tau"),
+            "running_exponent_error": (history["errors"], "error of the running estimate per tau"),
+        }
+        variables = along("direction", results) | along(("cycles", "direction"), estimates)
         coordinates = {
-            "direction": ("direction", [1, 2], named("number of the exponent, in descending order")),
-            "cycles": ("cycles", history["cycles"], named("forcing cycles since the transient")),
+            **along("direction", {"direction": ([1, 2], "number of the exponent, in descending order")}),
+            **along("cycles", {"cycles": (history["cycles"], "forcing cycles since the transient")}),
         }
         dimension, error = dimension_of(self) or (None, None)
         attributes = described("Lyapunov exponents") | {

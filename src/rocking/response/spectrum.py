@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.result import ReadOnlyArrays, Result, described, named, read_only
+from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
 from rocking.model.system import System, quantities
 from rocking.model.text import counted
 from rocking.model.validation import Refusal, WrongType, instance, refuse_if, whole, within
@@ -170,25 +170,22 @@ class SpectralDensity(ReadOnlyArrays, Result):
     def _data(self) -> xr.Dataset:
         import xarray as xr
 
-        variables = {
-            "density": ("cyclic_frequency", self.density, named("power spectral density of the angle")),
+        lines = {
             "line_frequency": (
-                "line",
                 np.array([peak.frequency for peak in self.peaks], float),
-                named("frequency of a spectral line in cycles per tau"),
+                "frequency of a spectral line in cycles per tau",
             ),
             "line_amplitude": (
-                "line",
                 np.array([peak.amplitude for peak in self.peaks], float),
-                named("amplitude of a spectral line"),
+                "amplitude of a spectral line",
             ),
             "line_name": (
-                "line",
                 np.array([peak.name for peak in self.peaks], str),
-                {"long_name": "combination of the forcing frequency f and the rotation frequency f_r"},
+                "combination of the forcing frequency f and the rotation frequency f_r",
             ),
         }
-        frequency = "cyclic_frequency", self.frequency, named("frequency in cycles per tau")
+        density = {"density": (self.density, "power spectral density of the angle")}
+        frequency = {"cyclic_frequency": (self.frequency, "frequency in cycles per tau")}
         attributes = described("Power spectral density of the angle") | {
             **quantities(self.system),
             "transient": self.transient,
@@ -207,7 +204,8 @@ class SpectralDensity(ReadOnlyArrays, Result):
             "mean_angle": self.mean,
             "variance": self.variance,
         }
-        return xr.Dataset(variables, {"cyclic_frequency": frequency}, attributes)
+        variables = along("cyclic_frequency", density) | along("line", lines)
+        return xr.Dataset(variables, along("cyclic_frequency", frequency), attributes)
 
     def __str__(self) -> str:
         block = self.block
