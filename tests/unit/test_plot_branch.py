@@ -174,11 +174,6 @@ def test_where_there_is_nothing_to_follow_it_shows_what_a_start_from_rest_does()
     assert legend(ax) == ["from rest: rest"]
 
 
-def test_notebooks_show_a_picture_over_the_line(family, response):
-    for result, begins in ((family[1], "branch of asymmetric orbits"), (response, "frequency response at")):
-        assert result._repr_html_().startswith(f'<figure><img alt="{begins}')
-
-
 def test_refusals_are_one_line(family):
     other = rk.continue_orbit(family[0].orbit(200), "period", (1.7, 1.8))
     for call, error, message in (

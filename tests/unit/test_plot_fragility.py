@@ -118,10 +118,3 @@ def test_bad_input_is_refused(records, analysis, fragility):
     many = rk.fragility(records, BLOCK, [1.0, 5.0], limits=[0.1, 0.2, 0.3, 0.4])
     with pytest.raises(ValueError, match="found must have at most 3 limits to be drawn; got 4"):
         rk.plot.fragility(many)
-
-
-def test_results_show_themselves_in_a_notebook(analysis, fragility):
-    for each in (analysis, fragility):
-        html = each._repr_html_()
-        assert "base64," in html
-        assert "12 records" in html

@@ -174,11 +174,6 @@ def test_ten_points_are_seen_and_a_million_stay_small_in_a_vector_file():
     assert 0.02 < (blue - red > 60).mean() < 0.7
 
 
-def test_notebook_shows_a_picture_over_the_line():
-    html = UP._repr_html_()
-    assert html.startswith('<figure><img alt="orbit diagram over amplitude 10.4 to 11.5')
-
-
 @pytest.mark.parametrize(
     "change, error, message",
     [

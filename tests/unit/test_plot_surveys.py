@@ -1,8 +1,5 @@
 """Figures of surveys: one colour per attractor, thresholds of the theory, intervals."""
 
-import base64
-import re
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -135,14 +132,6 @@ def test_points_that_are_not_certain_have_a_colour_of_their_own():
 def test_another_result_is_refused(draw):
     with pytest.raises(TypeError, match="found must be a"):
         getattr(rk.plot, draw)(SYSTEM)
-
-
-def test_results_show_themselves_in_a_notebook(basins, curve):
-    for each in (basins, curve, rk.repeatability(SYSTEM, samples=10)):
-        html = each._repr_html_()
-        picture = re.search(r"base64,([^\"]+)", html)[1]
-        assert base64.b64decode(picture).startswith(b"\x89PNG")
-        assert str(each).split("%")[0] in html
 
 
 def test_a_block_gives_its_units_and_its_name(curve, basins):

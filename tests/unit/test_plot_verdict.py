@@ -1,8 +1,5 @@
 """Figure of a verdict: the response, its section with the orbit, and the complete evidence."""
 
-import base64
-import io
-import re
 from itertools import combinations
 
 import numpy as np
@@ -10,10 +7,8 @@ import pytest
 from attrs import evolve
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
-from PIL import Image
 
 import rocking as rk
-from rocking.plot.figures import picture
 from rocking.plot.style import COLOURS
 
 
@@ -130,21 +125,6 @@ def test_band_has_the_colour_of_the_kind():
         verdict = verdict_of(name)
         (band,) = (artist for artist in rk.plot.verdict(verdict).get_children() if artist.get_gid() == "kind")
         assert band.get_facecolor()[:3] == to_rgb(COLOURS[verdict.kind])
-
-
-def test_notebook_shows_the_picture_over_the_sentence():
-    verdict = verdict_of("overturned")
-    html = verdict._repr_html_()
-    (encoded,) = re.findall(r'src="data:image/png;base64,([^"]+)"', html)
-    image = Image.open(io.BytesIO(base64.b64decode(encoded)))
-    assert image.format == "PNG"
-    assert np.asarray(image.convert("L")).std() > 10
-    assert "overturning is certain from τ = 10.3092, after 4 impacts" in html
-    assert base64.b64decode(encoded) == picture(lambda: rk.plot.verdict(verdict, title=False))
-    assert (
-        rk.plot.verdict(verdict, title=False).get_suptitle() == ""
-    )  # the sentence is below the picture, and not in it, too
-    assert rk.plot.verdict(verdict).get_suptitle().startswith("overturn")
 
 
 def test_other_than_a_verdict_is_refused_in_one_line():

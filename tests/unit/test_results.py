@@ -1,6 +1,8 @@
 """All results in all formats: dataset, netCDF, JSON, tables, pandas, notebook, text and pickle; normalised and in SI."""
 
+import base64
 import csv
+import html
 import io
 import json
 import pickle
@@ -10,6 +12,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from attrs import evolve
+from PIL import Image
 
 import rocking as rk
 from rocking.model.quantity import QUANTITIES
@@ -193,7 +196,10 @@ def test_notebook_shows_the_figure_above_the_text(name):
     if name in WITHOUT_FIGURE:
         assert shown is None
     else:
-        assert shown.startswith("<figure><img")
+        assert html.escape(str(made(name))) in shown
+        image = Image.open(io.BytesIO(base64.b64decode(shown.partition("base64,")[2].partition('"')[0])))
+        assert image.format == "PNG"
+        assert np.asarray(image.convert("L")).std() > 5
 
 
 @pytest.mark.parametrize("name", MADE)
