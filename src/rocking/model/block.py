@@ -9,7 +9,13 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.block_formulas import GRAVITY, frequency_in_hertz, frequency_parameter, housner_restitution
+from rocking.model.block_formulas import (
+    GRAVITY,
+    Dimensions,
+    frequency_in_hertz,
+    frequency_parameter,
+    housner_restitution,
+)
 from rocking.model.forcing import BaseMotion, Forcing, Harmonic
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, RESTITUTION, SIZES
@@ -61,7 +67,7 @@ def size_doubts(checked_height: float, checked_width: float) -> Iterator[str]:
 
 
 @frozen(repr=False)
-class Block:
+class Block(Dimensions):
     """Rigid block that stands on its two bottom corners: Yim & Lin (1991), Eqs. (1) and (2).
 
     Methods convert between normalised and SI quantities. A method named after a physical unit takes a normalised

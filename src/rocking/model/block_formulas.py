@@ -24,3 +24,9 @@ def frequency_in_hertz(frequency_hz: float | None, period_s: float | None, low: 
     if exactly_one(frequency_hz=frequency_hz, period_s=period_s) == "frequency_hz":
         return within("frequency_hz", frequency_hz, low, high, "Hz")  # type: ignore[arg-type]
     return 1 / within("period_s", period_s, 1 / high, 1 / low, "s")  # type: ignore[arg-type]
+
+
+class Dimensions:
+    """Base class of `Block`, by which a system knows that it has one."""
+
+    __slots__ = ()

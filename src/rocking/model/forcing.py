@@ -9,8 +9,8 @@ import attrs
 import numpy as np
 from attrs import field, frozen
 
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, PERIOD, PHASE
-from rocking.model.result import ReadOnlyArrays, read_only
 from rocking.model.validation import Refusal, exactly_one, finite, one_of, reals, within
 
 MAX_TIME = 1e100

@@ -15,9 +15,9 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.model import forcing
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import UNITS, BaseMotion, PiecewiseLinear, velocity_and_displacement
-from rocking.model.result import ReadOnlyArrays, read_only
 from rocking.model.text import listed
 from rocking.model.validation import (
     Refusal,

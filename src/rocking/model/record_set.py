@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
+from rocking.model.arrays import read_only
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
-from rocking.model.result import read_only
 from rocking.model.text import counted, shown
 from rocking.model.validation import Refusal, WrongType, members, one_of, reals, warn_of_input, warn_of_value
 

@@ -1,21 +1,20 @@
-"""What all results share: their data as a dataset, tables, JSON and figures; read-only arrays; attributes of datasets."""
+"""What all results share: their data as a dataset, tables, JSON and figures; attributes of datasets."""
 
 from __future__ import annotations
 
 import html as markup
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Mapping
-from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import attrs
 import numpy as np
 
+from rocking.model.block import Block, block_attributes
 from rocking.model.package import VERSION
 from rocking.model.quantity import Quantity
 from rocking.model.table import Table, dictionary, in_si, tables_of
-from rocking.model.validation import Refusal, WrongType, instance, one_of
+from rocking.model.validation import Refusal, instance, one_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,25 +22,6 @@ if TYPE_CHECKING:
 
 UNITS = ("si", "normalised")
 BLOCK_FOR_SI = "give block=rk.Block(height=…, width=…), or make the system by block.system(…)"
-
-
-def read_only(array: np.ndarray) -> np.ndarray:
-    """Make an array read-only and return it; TypeError for anything else."""
-    if not isinstance(array, np.ndarray):
-        raise WrongType("an array of a result", "be a NumPy array", array)
-    array.flags.writeable = False
-    return array
-
-
-class ReadOnlyArrays:
-    """Base class of frozen values whose arrays stay `read_only` in copies and in other processes."""
-
-    __slots__ = ()
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        # A copied or unpickled NumPy array is writeable. Only the constructor makes it read-only again.
-        fields = attrs.fields(type(self))  # type: ignore[arg-type]  # every subclass is an attrs class
-        return partial(type(self), **{each.alias: getattr(self, each.name) for each in fields}), ()
 
 
 def along(dimension: str | tuple[str, ...], columns: Mapping[str, tuple[Any, ...]]) -> dict[str, Any]:
@@ -111,8 +91,6 @@ class Result:
 
     def _block(self, units: str | None, block: Any) -> Any:
         """Return the block of results in SI units, None for normalised ones; errors as in `to_xarray`."""
-        from rocking.model.block import Block
-
         block = self.block if block is None else instance("block", block, Block)
         if units is not None and one_of("units", units, UNITS) == "si" and block is None:
             raise Refusal("units", "be 'normalised' for a system without a block", units, BLOCK_FOR_SI)
@@ -120,8 +98,6 @@ class Result:
 
     def _with_sizes(self, data: xr.Dataset, block: Any) -> xr.Dataset:
         """Return data with the sizes of the block as attributes, also if the units are normalised."""
-        from rocking.model.block import block_attributes
-
         known = block or self.block
         return data if known is None else data.assign_attrs(block_attributes(known))
 

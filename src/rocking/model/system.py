@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from attrs import evolve, field, frozen
 
+from rocking.model.block_formulas import Dimensions
 from rocking.model.forcing import Forcing, Harmonic
 from rocking.model.quantity import ANGLE, BRACE_ANGLE, CRITICAL_ANGLE, RESTITUTION, VELOCITY
 from rocking.model.validation import (
+    WAYS,
     Refusal,
     Text,
     WrongType,
@@ -117,9 +119,9 @@ def _critical_angle(value: float | None) -> float | None:
 
 
 def _block(value: Any) -> Any:
-    from rocking.model.block import Block
-
-    return None if value is None else instance("block", value, Block)
+    if not (value is None or isinstance(value, Dimensions)):
+        raise WrongType("block", "be a Block", value, WAYS["Block"])
+    return value
 
 
 @frozen

@@ -11,9 +11,9 @@ from attrs import field, frozen
 
 from rocking.kernels import event_kinds as kernel
 from rocking.kernels.march import resample
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.forcing import Harmonic
 from rocking.model.quantity import PHASE
-from rocking.model.result import ReadOnlyArrays, read_only
 from rocking.model.system import State, System
 from rocking.model.validation import Refusal, reals, refuse_if
 from rocking.model.verdict import Outcome, Overturning

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.model.result import ReadOnlyArrays, Result, read_only
+from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.result import Result
 from rocking.model.validation import Refusal, instance, one_of, pair, whole
 from rocking.orbits.branch import ENDS, SpecialPoint, chain_at
 from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of

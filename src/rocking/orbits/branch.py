@@ -11,9 +11,10 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import continuation as kernel
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.orbit import Orbit, Stability, stability_of
 from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
-from rocking.model.result import ReadOnlyArrays, Result, read_only
+from rocking.model.result import Result
 from rocking.model.system import System
 from rocking.model.validation import WrongType, whole, within
 from rocking.orbits.datasets import of_branch

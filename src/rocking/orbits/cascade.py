@@ -9,8 +9,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.quantity import SYSTEM_QUANTITIES
-from rocking.model.result import ReadOnlyArrays, Result, read_only
+from rocking.model.result import Result
 from rocking.model.text import counted, plus_minus
 from rocking.model.validation import Refusal, instance, whole
 from rocking.orbits.branch import SpecialPoint

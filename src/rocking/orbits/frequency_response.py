@@ -12,10 +12,11 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.forcing import Harmonic
 from rocking.model.orbit import Mode, Orbit
 from rocking.model.quantity import AMPLITUDE
-from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
+from rocking.model.result import Result, along, described
 from rocking.model.system import System
 from rocking.model.validation import Refusal, WrongType, exactly_one, reals, refuse_if, whole, within
 from rocking.model.verdict import Kind

@@ -14,8 +14,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.orbit import Orbit
-from rocking.model.result import ReadOnlyArrays, Result, read_only
+from rocking.model.result import Result
 from rocking.model.system import State
 from rocking.model.text import plus_minus
 from rocking.model.validation import Refusal, instance, reals, within

@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
-from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
+from rocking.model.result import Result, along, described
 from rocking.model.system import State, System, check_constant_restitution, check_periodic
 from rocking.model.validation import TooManyEvents, check_progress, instance, one_of, whole
 from rocking.motion.march_loop import start_march

@@ -12,9 +12,10 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import saddle_manifold as kernel
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.orbit import Orbit
 from rocking.model.quantity import PHASE
-from rocking.model.result import ReadOnlyArrays, Result, read_only
+from rocking.model.result import Result
 from rocking.model.system import State
 from rocking.model.validation import Refusal, instance, within
 from rocking.motion.march_loop import monodromy

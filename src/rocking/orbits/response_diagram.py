@@ -11,8 +11,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.quantity import SYSTEM_QUANTITIES
-from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
+from rocking.model.result import Result, along, described
 from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import check_progress, instance, one_of
 from rocking.model.verdict import Kind, Verdict

@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 
 from rocking.kernels.march import march
 from rocking.kernels.orbits import saddle_manifold as kernel
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.orbit import OrbitEvent
 from rocking.model.quantity import PHASE
-from rocking.model.result import ReadOnlyArrays, Result, read_only
+from rocking.model.result import Result
 from rocking.model.system import State, System
 from rocking.model.validation import Refusal, TooManyEvents, instance, refuse_if, whole, within
 from rocking.motion.march_loop import start_march

@@ -9,7 +9,8 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
+from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.result import Result, along, described
 from rocking.model.validation import Refusal, Text, TooShort, WrongType, reals, refuse_if
 from rocking.motion.motion import Motion
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import evolve, field, frozen
 
-from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
+from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.result import Result, along, described
 from rocking.model.system import NO_BRACES, State, System, check_periodic, quantities
 from rocking.model.text import counted, plus_minus
 from rocking.model.validation import TooShort, whole

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.result import ReadOnlyArrays, Result, along, described, read_only
+from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.result import Result, along, described
 from rocking.model.system import System, quantities
 from rocking.model.text import counted
 from rocking.model.validation import Refusal, WrongType, instance, refuse_if, whole, within
