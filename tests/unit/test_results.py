@@ -137,7 +137,7 @@ def test_every_class_of_results_is_tested():
         return {each.__name__ for each in kind.__subclasses__()}.union(*map(below, kind.__subclasses__()))
 
     tested = {type(made(name)).__name__ for name in MADE}
-    assert below(Result) == tested
+    assert below(Result) - {"Modes"} == tested  # modes are a result of the command line alone
 
 
 @pytest.mark.parametrize("units", ["si", "normalised"])
