@@ -291,7 +291,8 @@ def map_of_responses():
     def computed(points):
         start = time.perf_counter()
         amplitudes, periods = np.linspace(0.0, 16.0, points), np.linspace(0.2, 3.0, points)
-        rk.parametric_map(amplitude=amplitudes, period=periods, restitution=0.925, critical_angle=0.25)
+        system = rk.System(rk.Harmonic(2.0, period=1.0), 0.925, critical_angle=0.25)
+        rk.parametric_map(system, amplitude=amplitudes, period=periods)
         return time.perf_counter() - start
 
     computed(10)  # loads the kernels

@@ -12,6 +12,7 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
+from attrs import evolve
 
 import rocking as rk
 from rocking.kernels import entry_point
@@ -36,7 +37,7 @@ def workload():
     motion.validity(rk.Block(height=2.0, width=0.5))
     axes = {"amplitude": np.linspace(0.0, 16.0, 24), "period": np.linspace(0.2, 3.0, 24)}
     for restitution in (0.925, 1.0):
-        rk.parametric_map(**axes, restitution=restitution, max_cycles=2_000)
+        rk.parametric_map(evolve(system, restitution=restitution), **axes, max_cycles=2_000)
     starts = np.linspace(-1.0, 1.0, 12)
     rk.basin_map(system, angle=starts, velocity=starts, max_cycles=1_000)
     rk.lyapunov(rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8), cycles=2_000)
@@ -44,7 +45,7 @@ def workload():
     branch.section(0.7)
     rk.bifurcation_curve(branch.special[0], "period", "amplitude", ((1, 2), (1, 30)))
     rk.find_orbits(system, 1)
-    rk.orbit_diagram(system, "amplitude", np.linspace(10.0, 15.0, 40))
+    rk.orbit_diagram(system, amplitude=np.linspace(10.0, 15.0, 40))
     rk.theory.symmetric_modes(6.5, 0.4, 0.925, 3)
     rk.saddle_manifolds(rk.System(rk.Harmonic(1.2, period=2.0), 0.9))
     rk.orbit_manifolds(rk.find_orbits(rk.System(rk.Harmonic(6.0, period=2.0), 0.925), 1)[2], length=0.1)
@@ -63,8 +64,8 @@ def workload():
     orbit = rk.classify(full).orbit
     rk.find_orbit(full, orbit.start, orbit.period)
     rk.lyapunov(full, cycles=500)
-    rk.orbit_diagram(full, "critical_angle", np.linspace(0.1, 0.4, 20))
-    rk.parametric_map(amplitude=axes["amplitude"], period=1.0, restitution=0.8, critical_angle=[0.1, 0.3])
+    rk.orbit_diagram(full, critical_angle=np.linspace(0.1, 0.4, 20))
+    rk.parametric_map(full, amplitude=axes["amplitude"], critical_angle=[0.1, 0.3])
     rk.basin_map(full, angle=starts, velocity=starts, max_cycles=500)
     rows, never, runs = np.empty(50, ENDING_ROW), np.zeros(1, np.int64), np.zeros(50, RUN_ROW)
     runs["scale"], runs["restitution"], runs["critical_angle"] = np.linspace(0.5, 2.0, 50), 0.8, 0.3

@@ -359,7 +359,7 @@ def survey():
     records = rk.RecordSet(rk.synthetic_ground_motions(100, seed=1))
     sizes, scales = np.linspace(0.5, 4.0, 100), np.linspace(0.3, 3.0, 100)
     ask = partial(rk.rocking_spectrum, records, slenderness=0.2)
-    ask(size=sizes[:2], scale=scales[:2])  # loads the kernels
+    ask(size=sizes[:2], levels=scales[:2])  # loads the kernels
     taken, found = quickest(3, partial(ask, size=sizes, scale=scales))
     return Figure(
         f"spectrum, {found.outcome.size:,} runs", taken, "s", SURVEY_S, note="on all cores, tables included"

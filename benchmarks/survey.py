@@ -41,7 +41,8 @@ import pathlib, resource, sys
 import numpy as np, rocking
 count, store = int(sys.argv[1]), sys.argv[2]
 rocking.parametric_map(
-    amplitude=np.linspace(0, 16, count), period=np.linspace(0.2, 3, count), restitution=0.925, store=store, max_cycles=20
+    rocking.System(rocking.Harmonic(2.0, period=1.0), 0.925),
+    amplitude=np.linspace(0, 16, count), period=np.linspace(0.2, 3, count), store=store, max_cycles=20
 )
 # On Linux getrusage includes the memory of the parent process.
 status = pathlib.Path("/proc/self/status")
@@ -50,31 +51,32 @@ print(int(most[0] if most else resource.getrusage(resource.RUSAGE_SELF).ru_maxrs
 """
 
 
-def asked(points, restitution=0.925):
+def arguments(points, restitution=0.925, braces=None):
+    """Return the arguments of a map of ``points`` × ``points`` points."""
     return {
+        "system": rk.System(rk.Harmonic(2.0, period=1.0), restitution, braces),
         "amplitude": np.linspace(*AMPLITUDES, points),
         "period": np.linspace(*PERIODS, points),
-        "restitution": restitution,
     }
 
 
-def taken(**arguments):
+def taken(**named):
     """Compute a map; return (seconds, processor seconds of all threads, map)."""
     begun, worked = time.perf_counter(), time.process_time()
-    found = rk.parametric_map(**arguments)
+    found = rk.parametric_map(**named).dataset
     return time.perf_counter() - begun, time.process_time() - worked, found
 
 
-def in_turn(*questions, turns=TURNS):
+def in_turn(*maps_of, turns=TURNS):
     """Time maps alternately, so that load on the machine affects all; return (seconds, processor seconds) of each."""
-    runs = [[taken(**question())[:2] for question in questions] for _ in range(turns)]
+    runs = [[taken(**of())[:2] for of in maps_of] for _ in range(turns)]
     return [np.transpose(of_one) for of_one in zip(*runs, strict=True)]
 
 
 def by_one_worker(points):
     """Return the seconds of a map on a single thread; runs in a separate process."""
     with ThreadPoolExecutor(1) as alone:
-        return taken(**asked(points), executor=alone)[0]
+        return taken(**arguments(points), executor=alone)[0]
 
 
 def side_by_side():
@@ -89,11 +91,11 @@ def side_by_side():
 
 def maps():
     """Time maps of a million points, and the growth of the cost."""
-    rk.parametric_map(**asked(20))
-    (walls, works), (_, quarters) = in_turn(lambda: asked(POINTS), lambda: asked(POINTS // 2))
+    rk.parametric_map(**arguments(20))
+    (walls, works), (_, quarters) = in_turn(lambda: arguments(POINTS), lambda: arguments(POINTS // 2))
     note = f"the quickest of {TURNS}; {min(works):.3g} s of processors"
     yield Figure("10⁶ points, e = .925, ≤ 10,000 cycles", min(walls), "s", 1, note=note)
-    _, _, found = taken(**asked(POINTS))
+    _, _, found = taken(**arguments(POINTS))
     unresolved = found.evidence.values == Criterion.UNRESOLVED_RESET
     undetermined = (found.kind.values == rk.Kind.UNDETERMINED.code) & ~unresolved
     yield Figure("  undetermined, resets left out", float(undetermined.sum()), "points", 0)
@@ -109,33 +111,33 @@ def maps():
         least=True,
         note=f"{marched / early:.3g} times without classification",
     )
-    rk.parametric_map(**asked(20, 1.0), max_cycles=200)
-    wall, work, found = taken(**asked(POINTS, 1.0))
+    rk.parametric_map(**arguments(20, 1.0), max_cycles=200)
+    wall, work, found = taken(**arguments(POINTS, 1.0))
     yield Figure("10⁶ points, e = 1, ≤ 10,000 cycles", wall, "s", 8, note=f"{work:.3g} s of processors")
     open_share = 100.0 * np.isin(found.kind.values, (rk.Kind.CHAOTIC.code, rk.Kind.UNDETERMINED.code)).mean()
     yield Figure("  still chaotic or undetermined", open_share, "%", 3.5)
-    braced = asked(POINTS) | {"brace_angle": 1.0, "max_cycles": 1000}
+    braced = arguments(POINTS, braces=rk.Braces(1.0)) | {"max_cycles": 1000}
     wall, work, _ = taken(**braced)
     yield Figure("10⁶ points with braces, ≤ 1,000 cycles", wall, "s", 15, note=f"{work:.3g} s of processors")
 
 
 def engines():
     """Compare workers and stores on the map of figure 11."""
-    rk.parametric_map(**asked(20))
+    rk.parametric_map(**arguments(20))
     with ThreadPoolExecutor(1) as alone, ThreadPoolExecutor(2) as both:
         (one, _), (two, work) = in_turn(
-            lambda: asked(POINTS) | {"executor": alone},
-            lambda: asked(POINTS) | {"executor": both},
+            lambda: arguments(POINTS) | {"executor": alone},
+            lambda: arguments(POINTS) | {"executor": both},
             turns=PAIRS,
         )
     note = f"median of {PAIRS} pairs; {median(work / two):.3g} cores at work"
     yield Figure("one worker, compared with two", median(one / two), "×", 1.9, least=True, note=note)
     yield Figure("  one process, compared with two with one map each", median(side_by_side()), "×")
     with tempfile.TemporaryDirectory() as folder:
-        rk.parametric_map(**asked(20), store=f"{folder}/warm.zarr")
+        rk.parametric_map(**arguments(20), store=f"{folder}/warm.zarr")
         stores = (Path(folder, f"{turn}.zarr") for turn in itertools.count())
         (_, plain), (_, stored) = in_turn(
-            lambda: asked(POINTS), lambda: asked(POINTS) | {"store": next(stores)}
+            lambda: arguments(POINTS), lambda: arguments(POINTS) | {"store": next(stores)}
         )
         share = 100.0 * (median(stored) / median(plain) - 1.0)
         yield Figure("storing, fraction of the processor time", share, "%", 10)

@@ -32,10 +32,11 @@ def run_record(levels):
     rk.incremental_dynamic_analysis([record], block, np.linspace(1.0, 4.0, levels), executor=ONE_THREAD)
 
 
-def compute_map(points, restitution, periods=PERIODS, amplitudes=AMPLITUDES, **more):
+def compute_map(points, restitution, periods=PERIODS, amplitudes=AMPLITUDES, braces=None, **more):
     """Classify ``points`` × ``points`` systems on one thread."""
     axes = {"amplitude": np.linspace(*amplitudes, points), "period": np.linspace(*periods, points)}
-    rk.parametric_map(**axes, restitution=restitution, executor=ONE_THREAD, **more)
+    system = rk.System(rk.Harmonic(2.0, period=1.0), restitution, braces)
+    rk.parametric_map(system, **axes, executor=ONE_THREAD, **more)
 
 
 CASES = {
@@ -47,7 +48,7 @@ CASES = {
     "lanes": partial(compute_map, 10, 1.0, **LONG_MOTIONS),
     "map, e = .925": partial(compute_map, 140, 0.925),
     "map, e = 1": partial(compute_map, 42, 1.0),
-    "map, braced": partial(compute_map, 35, 0.925, brace_angle=1.0, max_cycles=1_000),
+    "map, braced": partial(compute_map, 35, 0.925, braces=rk.Braces(1.0), max_cycles=1_000),
 }
 """Cases by name; each takes 0.1 to 0.2 seconds."""
 

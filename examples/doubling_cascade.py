@@ -53,7 +53,7 @@ def draw(branches):
     """Draw the branch over the diagram, and an enlarged view of the cascade."""
     figure, (wide, near) = rk.plot.panels(columns=2, height=3.6)
     for ax, values in ((wide, np.linspace(7.0, 10.9, 500)), (near, np.linspace(10.4, 10.76, 500))):
-        diagram = rk.orbit_diagram(system(7.0), "amplitude", values, sweep="up", transient=2_000, cycles=200)
+        diagram = rk.orbit_diagram(system(7.0), amplitude=values, sweep="up", transient=2_000, cycles=200)
         rk.plot.orbit_diagram(diagram, ax, branches=branches)
     near.set_ylim(1.44, 1.56)
     rk.plot.title(wide, "swept upwards")

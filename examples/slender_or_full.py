@@ -33,10 +33,12 @@ def boundaries(factors):
     """Return the relative difference of the lowest amplitudes of a sine pulse that overturn a block at rest."""
     levels = np.linspace(1.0, 8.0, 2_801)
 
+    system = rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), RESTITUTION)
+
     def lowest(**block):
-        found = rk.overturning_spectrum(
-            "one-sine", amplitude=levels, frequency=[3.0, 6.0], restitution=RESTITUTION, **block
-        ).sel(frequency=3.0)
+        found = rk.overturning_spectrum(system, amplitude=levels, frequency=[3.0, 6.0], **block).dataset.sel(
+            frequency=3.0
+        )
         overturned = found.outcome == list(rk.Outcome).index(rk.Outcome.OVERTURNED)
         return levels[overturned.argmax("amplitude").values]
 
@@ -47,10 +49,12 @@ def kinds(factors):
     """Return the fraction of a map over A and T whose kind of response differs."""
     amplitudes, periods = np.linspace(1.1, 8.0, 24), np.linspace(0.4, 2.4, 24)
 
-    def kind(factor, **block):
-        return rk.parametric_map(
-            amplitude=factor * amplitudes, period=periods, restitution=RESTITUTION, max_cycles=1_000, **block
-        ).kind.values
+    def kind(factor, critical_angle=None):
+        system = rk.System(rk.Harmonic(2.0, period=1.0), RESTITUTION, critical_angle=critical_angle)
+        found = rk.parametric_map(
+            system, amplitude=factor * amplitudes, period=periods, max_cycles=1_000
+        ).dataset
+        return found.kind.values
 
     slender = kind(1.0)
     full = [kind(factor, critical_angle=angle) for factor, angle in zip(factors, ANGLES, strict=True)]
@@ -69,10 +73,10 @@ def verdicts(factors):
                 size=size,
                 slenderness=angle,
                 restitution=RESTITUTION,
-                scale=levels * strength,
+                levels=levels * strength,
                 intensity="pga-ratio",
                 model=model,
-            ).outcome.values
+            ).dataset.outcome.values
             for model, strength in (("slender", 1.0), ("full", factor))
         ]
         shares.append(np.mean(outcomes[0] != outcomes[1]))

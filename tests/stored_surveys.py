@@ -25,20 +25,20 @@ class StoredSurvey(NamedTuple):
 
     def run(self, store, **changed):
         """Run the survey in a store, with some arguments changed or added."""
-        return self.function(**(self.given | changed), store=store)
+        return self.function(**(self.given | changed), store=store).dataset
 
 
 MAP = {
+    "system": rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=1.0),
     "amplitude": np.linspace(0.0, 16.0, 150),
     "period": np.linspace(0.2, 3.0, 150),
-    "restitution": 1.0,
     "max_cycles": 100,
 }
 SPECTRUM = {
     "records": rk.synthetic_ground_motions(3, seed=3, duration=6.0),
     "size": np.linspace(0.2, 4.0, 150),
     "slenderness": [0.1, 0.2, 0.3],
-    "scale": np.linspace(0.3, 0.5, 30),
+    "levels": np.linspace(0.3, 0.5, 30),
     "intensity": "pga-g",
 }
 SURVEYS = {

@@ -73,11 +73,11 @@ def test_texts_of_the_basins_have_the_exponents_and_fractions_that_were_computed
 def test_enlarged_boundary_is_as_finely_divided_as_its_title_says(monkeypatch):
     made, parametric_map = [], rk.parametric_map
     monkeypatch.setattr(
-        rk, "parametric_map", lambda **named: made.append(parametric_map(**named)) or made[-1]
+        rk, "parametric_map", lambda *system, **axes: made.append(parametric_map(*system, **axes)) or made[-1]
     )
     figure = zoom.draw()
     for ax, found in zip(figure.axes, made, strict=True):
-        kinds = found.kind.transpose("amplitude", "period").values.tolist()
+        kinds = found.dataset.kind.transpose("amplitude", "period").values.tolist()
         pairs = [(one == 4) != (other == 4) for row in kinds for one, other in itertools.pairwise(row)]
         told = float(re.search(r"([\d.]+) % of neighbouring points differ", title(ax))[1])
         assert told == round(100 * sum(pairs) / len(pairs), 1)
@@ -130,7 +130,7 @@ def test_caption_of_figure_11_says_what_lies_beyond_the_first_curve(reproduced):
 
 @pytest.mark.long
 def test_caption_of_the_bifurcation_curves_tells_what_is_drawn(monkeypatch):
-    shown = rk.parametric_map(**cached_surveys.axes(8), restitution=0.925, max_cycles=200)
+    shown = rk.parametric_map(cached_surveys.SYSTEM, **cached_surveys.axes(8), max_cycles=200).dataset
     monkeypatch.setattr(cached_surveys, "damped", lambda: shown)
     monkeypatch.setattr(bifurcations, "GRID", 3)
     whole, part = bifurcations.draw().axes

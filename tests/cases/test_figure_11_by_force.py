@@ -20,7 +20,9 @@ LONGER = 20
 
 def compared(axes, places, cycles):
     """Return the points at which brute force differs: (A, T, label of the package, label by brute force, reason)."""
-    found = rk.parametric_map(amplitude=axes[0], period=axes[1], restitution=RESTITUTION)
+    found = rk.parametric_map(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=RESTITUTION), amplitude=axes[0], period=axes[1]
+    ).dataset
     kinds, periods = found.kind.values.ravel(), found.response_period.values.ravel()
     for place in places:
         amplitude, period = (

@@ -7,6 +7,7 @@ import pytest
 
 import rocking as rk
 from oracles.modes import symmetric_modes
+from surveyed import system_with
 
 PERIODS = np.linspace(0.2, 3.0, 29)
 OFF = 1e-8
@@ -14,7 +15,7 @@ OFF = 1e-8
 
 def response(amplitude, restitution, modes=(1, 3)):
     return rk.frequency_response(
-        period=PERIODS, amplitude=amplitude, restitution=restitution, modes=modes, step=0.03
+        system_with(amplitude=amplitude, restitution=restitution), period=PERIODS, modes=modes, step=0.03
     )
 
 
@@ -92,8 +93,8 @@ def test_every_admissible_mode_lies_on_a_branch(found):
             speeds = [
                 np.abs(rk.simulate(clocked(one), one.state, cycles=n).events["after"][0]) for one in orbits
             ]
-            for mode in symmetric_modes(found.amplitude, period, found.restitution, n):
-                if stays_up(found.amplitude, period, n, mode):
+            for mode in symmetric_modes(found.system.forcing.amplitude, period, found.system.restitution, n):
+                if stays_up(found.system.forcing.amplitude, period, n, mode):
                     assert np.abs(np.array(speeds) - mode.velocity).min() < 1e-9
 
 
@@ -131,7 +132,9 @@ def test_unsymmetric_branches_begin_where_the_symmetry_breaks(found):
 
 def test_a_start_from_rest_is_what_classify_says(found):
     for value, row in zip(found.values, found.rest, strict=True):
-        system = rk.System(rk.Harmonic(found.amplitude, period=value), found.restitution)
+        system = system_with(
+            amplitude=found.system.forcing.amplitude, period=value, restitution=found.system.restitution
+        )
         verdict = rk.classify(system, max_cycles=10_000)
         assert (row["kind"], row["period"], row["peak"]) == (verdict.kind, verdict.period or 0, verdict.peak)
         steady = math.nan if verdict.steady_peak is None else verdict.steady_peak
@@ -155,9 +158,10 @@ def test_responses_from_rest_of_period_1_lie_on_the_stable_branch():
 
 
 def test_over_the_frequency_it_is_the_same():
-    by_period = rk.frequency_response(period=[1.0, 1.5, 2.5], amplitude=6.0, restitution=0.8, modes=(1,))
+    system = system_with(amplitude=6.0, restitution=0.8)
+    by_period = rk.frequency_response(system, period=[1.0, 1.5, 2.5], modes=(1,))
     frequency = 2 * math.pi / np.array([1.0, 1.5, 2.5])
-    by_frequency = rk.frequency_response(frequency=frequency, amplitude=6.0, restitution=0.8, modes=(1,))
+    by_frequency = rk.frequency_response(system, frequency=frequency, modes=(1,))
     assert by_frequency.rest["kind"].tolist() == by_period.rest["kind"].tolist()[::-1]
     ours, theirs = (
         [special for branch in one.branches for special in branch.special if special.kind != "grazing"]
@@ -187,7 +191,7 @@ def test_as_a_dataset_it_has_every_point_and_says_what_was_fixed():
 
 
 def test_where_there_is_no_orbit_it_says_so():
-    found = rk.frequency_response(period=[0.5, 1.0], amplitude=0.05, restitution=0.5)
+    found = rk.frequency_response(system_with(amplitude=0.05, restitution=0.5), period=[0.5, 1.0])
     assert found.branches == ()
     assert "(1, 1) none found; (1, 3) none found; from rest 2 rest" in str(found)
     assert found.to_xarray().branch_number.values.tolist() == ["from rest"] * 2
@@ -201,14 +205,23 @@ def test_where_there_is_no_orbit_it_says_so():
         (dict(period=[1.0, math.nan]), ValueError, "period must be 2 to 100,000 different finite numbers"),
         (dict(period=[-1.0, 1.0]), ValueError, "period must lie in"),
         (dict(period="T"), TypeError, "period must be a real number or an array of real numbers; got 'T'"),
-        (dict(amplitude=0.0), ValueError, "amplitude must be above 0"),
-        (dict(amplitude=-1.0), ValueError, r"amplitude must lie in \[0, 1000\]; got -1.0"),
+        (dict(system=system_with(amplitude=0.0, restitution=0.9)), ValueError, "amplitude must be above 0"),
+        (dict(system=system_with(brace_angle=0.5)), ValueError, "system must have no braces"),
         (
-            dict(restitution=1.0),
+            dict(system=system_with(critical_angle=0.3)),
+            TypeError,
+            "critical_angle must be None for this analysis",
+        ),
+        (
+            dict(system=system_with(restitution=1.0)),
             ValueError,
             r"restitution must lie in \[0.001, 1\); got 1.0 \(an undamped motion",
         ),
-        (dict(restitution=0.0), ValueError, r"restitution must lie in \[0.001, 1\]; got 0.0"),
+        (
+            dict(system=system_with(restitution=0.0)),
+            ValueError,
+            r"restitution must lie in \[0.001, 1\]; got 0.0",
+        ),
         (
             dict(modes=(1, 2)),
             ValueError,
@@ -221,6 +234,6 @@ def test_where_there_is_no_orbit_it_says_so():
     ],
 )
 def test_refusals_are_one_line(change, error, message):
-    given = {"period": [0.5, 1.0], "amplitude": 2.0, "restitution": 0.9} | change
+    given = {"system": system_with(amplitude=2.0, restitution=0.9), "period": [0.5, 1.0]} | change
     with pytest.raises(error, match=f"^{message}"):
         rk.frequency_response(**given)

@@ -160,7 +160,9 @@ def test_orbit_of_the_full_block_gives_its_state_at_any_phase():
 
 def test_maps_are_the_single_verdicts():
     amplitudes, angles = np.linspace(0.5, 12.0, 8), np.array([0.05, 0.2, 0.4, 0.8])
-    found = rk.parametric_map(amplitude=amplitudes, critical_angle=angles, period=1.3, restitution=0.8)
+    found = rk.parametric_map(
+        rk.System(rk.Harmonic(1.0, period=1.3), restitution=0.8), amplitude=amplitudes, critical_angle=angles
+    ).dataset
     assert found.kind.dims == ("amplitude", "critical_angle")
     assert found.critical_angle.attrs["units"] == "rad"
     kinds = [str(kind) for kind in rk.Kind]
@@ -187,13 +189,24 @@ def test_basins_are_the_single_verdicts():
 
 
 def test_surveys_of_random_points_answer_for_the_full_block():
-    safe = rk.safe_basin(amplitude=[1.0, 3.0], period=1.0, restitution=0.8, critical_angle=0.3, samples=300)
+    safe = rk.safe_basin(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8, critical_angle=0.3),
+        amplitude=[1.0, 3.0],
+        samples=300,
+    )
     assert math.isnan(safe.heteroclinic_amplitude)
     assert all(0.0 < each.value < 1.0 for each in safe.shares)
-    share = rk.chaos_share(restitution=[0.5, 0.9], critical_angle=0.3, samples=40)
+    share = rk.chaos_share(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=1.0, critical_angle=0.3),
+        restitution=[0.5, 0.9],
+        samples=40,
+    )
     assert share.dataset.attrs["critical_angle"] == 0.3
     curve = rk.overturning_amplitude(
-        period=[1.5, 2.0], restitution=0.925, critical_angle=0.3, amplitude=np.linspace(1, 5, 21), phases=2
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925, critical_angle=0.3),
+        period=[1.5, 2.0],
+        amplitude=np.linspace(1, 5, 21),
+        phases=2,
     )
     assert np.isnan(curve.dataset.heteroclinic_amplitude).all()
     for period, lowest, resolution in zip(
@@ -208,10 +221,8 @@ def test_surveys_of_random_points_answer_for_the_full_block():
 
 def test_orbit_diagram_is_the_section_of_single_motions():
     values = [1.5, 2.0, 2.5]
-    diagram = rk.orbit_diagram(PERIODIC, "amplitude", values, sweep="rest", transient=50, cycles=3)
-    over_angles = rk.orbit_diagram(
-        PERIODIC, "critical_angle", [0.1, 0.25], sweep="rest", transient=50, cycles=3
-    )
+    diagram = rk.orbit_diagram(PERIODIC, amplitude=values, sweep="rest", transient=50, cycles=3)
+    over_angles = rk.orbit_diagram(PERIODIC, critical_angle=[0.1, 0.25], sweep="rest", transient=50, cycles=3)
     for k, value in enumerate(values):
         system = rk.System(rk.Harmonic(value, period=1.0), 0.925, critical_angle=0.25)
         section = rk.simulate(system, cycles=53, record="section").section()
@@ -226,11 +237,21 @@ def test_orbit_diagram_is_the_section_of_single_motions():
         lambda: rk.saddle_manifolds(PERIODIC),
         lambda: rk.tangency_amplitude(PERIODIC),
         lambda: rk.parametric_map(
-            amplitude=[1.0, 2.0], period=[1.0, 2.0], restitution=0.9, critical_angle=0.2, brace_angle=8.0
+            rk.System(
+                rk.Harmonic(1.0, period=1.0), restitution=0.9, braces=rk.Braces(8.0), critical_angle=0.2
+            ),
+            amplitude=[1.0, 2.0],
+            period=[1.0, 2.0],
         ),
-        lambda: rk.chaos_share(restitution=0.9, critical_angle=0.2, brace_angle=8.0),
+        lambda: rk.chaos_share(
+            rk.System(
+                rk.Harmonic(1.0, period=1.0), restitution=0.9, braces=rk.Braces(8.0), critical_angle=0.2
+            )
+        ),
         lambda: rk.parametric_map(
-            amplitude=[1.0, 2.0], period=[1.0, 2.0], restitution=0.9, critical_angle=2.0
+            rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.9, critical_angle=2.0),
+            amplitude=[1.0, 2.0],
+            period=[1.0, 2.0],
         ),
     ],
 )

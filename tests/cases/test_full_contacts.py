@@ -138,8 +138,10 @@ def test_braces_bound_the_full_block_in_maps():
     found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0)
     assert "overturned" not in [each.name for each in found.attractors]
     one = rk.parametric_map(
-        amplitude=[2.0, 4.0], critical_angle=[0.2, 0.3], period=1.5, restitution=0.8, brace_angle=0.8
-    )
+        rk.System(rk.Harmonic(1.0, period=1.5), restitution=0.8, braces=rk.Braces(0.8)),
+        amplitude=[2.0, 4.0],
+        critical_angle=[0.2, 0.3],
+    ).dataset
     verdict = rk.classify(rk.System(rk.Harmonic(4.0, period=1.5), 0.8, rk.Braces(0.8), critical_angle=0.3))
     assert [str(kind) for kind in rk.Kind][int(one.kind[1, 1])] == str(verdict.kind)
 
@@ -169,7 +171,7 @@ FORCING = rk.Harmonic(2.0, period=1.0)
         ),
         (
             lambda: rk.orbit_diagram(
-                rk.System(FORCING, 0.9, critical_angle=0.2, restitution_table=[(1, 0.8)]), "amplitude", [1.0]
+                rk.System(FORCING, 0.9, critical_angle=0.2, restitution_table=[(1, 0.8)]), amplitude=[1.0]
             ),
             "restitution_table must be omitted for many systems",
         ),

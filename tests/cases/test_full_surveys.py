@@ -24,10 +24,10 @@ def test_each_point_of_a_spectrum_is_a_simulation(restitution):
         RECORDS,
         size=[0.5, 1.0, 2.0],
         slenderness=slenderness,
-        scale=[1.0, 2.0, 5.0],
+        levels=[1.0, 2.0, 5.0],
         restitution=restitution,
         model="full",
-    )
+    ).dataset
     assert found.attrs["model"] == "full"
     assert set(told(found, "certified").ravel()) == {"not-assessed"}
     assert np.isnan(found.margin.values).all()
@@ -36,7 +36,7 @@ def test_each_point_of_a_spectrum_is_a_simulation(restitution):
         one = found.isel(dict(zip(found.outcome.dims, place, strict=True)))
         size, angle = float(one["size"]), float(one.slenderness)
         block = rk.Block(2 * size * math.cos(angle), 2 * size * math.sin(angle), restitution)
-        motion = rk.simulate(block.system(RECORDS[int(one.record)].scaled(float(one.scale)), model="full"))
+        motion = rk.simulate(block.system(RECORDS[int(one.record)].scaled(float(one.level)), model="full"))
         assert OUTCOMES[int(one.outcome)] == motion.outcome
         seen.add(str(motion.outcome))
         if motion.outcome == "overturned":
@@ -82,13 +82,18 @@ def test_switches_of_an_overturning_set_are_those_of_simulations():
 def test_overturning_amplitude_over_the_critical_angle_is_that_of_single_angles():
     levels, angles = np.linspace(1.5, 5.0, 15), [0.1, 0.3]
     together = rk.overturning_amplitude(
-        period=2.0, restitution=0.9, critical_angle=angles, amplitude=levels, phases=2
+        rk.System(rk.Harmonic(1.0, period=2.0), restitution=0.9),
+        critical_angle=angles,
+        amplitude=levels,
+        phases=2,
     ).dataset
     assert together.lowest.dims == ("critical_angle",)
     assert np.isnan(together.heteroclinic_amplitude).all()
     for angle, found in zip(angles, together.lowest.values, strict=True):
         alone = rk.overturning_amplitude(
-            period=2.0, restitution=0.9, critical_angle=angle, amplitude=levels, phases=2
+            rk.System(rk.Harmonic(1.0, period=2.0), restitution=0.9, critical_angle=angle),
+            amplitude=levels,
+            phases=2,
         )
         assert alone.dataset.lowest == found
         system = rk.System(
@@ -126,12 +131,11 @@ def test_sensitivity_repeats_the_runs_of_the_full_block():
 @pytest.mark.parametrize("kind", ["one-sine", "half-sine", "ricker", "triangular"])
 def test_each_point_of_an_overturning_spectrum_is_a_simulation(kind):
     found = rk.overturning_spectrum(
-        kind,
+        rk.System(rk.Pulse(kind, amplitude=1.0, duration=1.0), 0.85),
         amplitude=[1.5, 4.0, 8.0],
         frequency=[1.0, 4.0],
-        restitution=0.85,
         critical_angle=[0.1, 0.4],
-    )
+    ).dataset
     turns = 0.5 if kind == "half-sine" else 1.0
     for place in np.ndindex(found.outcome.shape):
         one = found.isel(dict(zip(found.outcome.dims, place, strict=True)))
@@ -157,7 +161,9 @@ def test_each_point_of_an_overturning_spectrum_is_a_simulation(kind):
         ),
         (
             lambda: rk.overturning_spectrum(
-                "one-sine", amplitude=[1, 2], frequency=[1, 2], restitution=0.9, critical_angle=2.0
+                rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9, critical_angle=2.0),
+                amplitude=[1, 2],
+                frequency=[1, 2],
             ),
             "critical_angle must lie in",
         ),

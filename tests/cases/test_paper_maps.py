@@ -1,21 +1,30 @@
 """The maps of figures 10, 11 and 13b on coarser grids; the expected fractions are those of THEORY's larger grids."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import rocking as rk
+from rocking.model.system import quantities
 from rocking.papers.yim_lin_1991 import cached_surveys, figure11
+from surveyed import system_with
 
 KINDS = {kind: number for number, kind in enumerate(rk.Kind)}
 
 
-def a_map(count, **asked):
+def a_map(count, restitution, *, brace_angle=None, max_cycles=10_000):
     # values between those of the figures' grids
     period, amplitude = (
         low + (np.arange(count) + 0.5) / count * (high - low)
         for low, high in (cached_surveys.PERIODS, cached_surveys.AMPLITUDES)
     )
-    return rk.parametric_map(period=period, amplitude=amplitude, **asked)
+    return rk.parametric_map(
+        system_with(restitution=restitution, brace_angle=brace_angle),
+        period=period,
+        amplitude=amplitude,
+        max_cycles=max_cycles,
+    ).dataset
 
 
 def share(found, kind):
@@ -80,14 +89,21 @@ def test_braced_map_followed_for_less_has_nothing_chaotic_and_what_is_open_is_un
     [
         (cached_surveys.undamped, {"restitution": 1.0}),
         (cached_surveys.damped, {"restitution": 0.925}),
-        (cached_surveys.braced, {"restitution": 0.925, "brace_angle": 1.0, "max_cycles": 100_000}),
+        (
+            cached_surveys.braced,
+            {"restitution": 0.925, "brace_angle": 1.0, "brace_restitution": 1.0, "max_cycles": 100_000},
+        ),
     ],
 )
 def test_figures_ask_for_what_their_captions_say(monkeypatch, figure, fixed):
-    monkeypatch.setattr(rk, "parametric_map", lambda **asked: asked)
-    asked = figure.__wrapped__()
-    period, amplitude = asked.pop("period"), asked.pop("amplitude")
-    assert asked == fixed
+    monkeypatch.setattr(rk, "parametric_map", lambda system, **axes: SimpleNamespace(dataset=(system, axes)))
+    system, axes = figure.__wrapped__()
+    period, amplitude = axes.pop("period"), axes.pop("amplitude")
+    own = {
+        name: value for name, value in quantities(system).items() if name not in system.forcing.quantities()
+    }
+    assert system.forcing.phase == 0.0
+    assert own | axes == fixed
     assert min(period.size, amplitude.size) >= 40
     assert (period[0], period[-1], amplitude[0], amplitude[-1]) == (
         *cached_surveys.PERIODS,

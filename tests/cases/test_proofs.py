@@ -528,8 +528,10 @@ def test_wrong_arguments_are_refused():
 
 def test_share_of_a_map_counts_proofs_and_reasons():
     found = rk.parametric_map(
-        amplitude=np.linspace(1.0, 9.0, 8), period=np.linspace(0.4, 2.0, 8), restitution=0.925
-    )
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+        amplitude=np.linspace(1.0, 9.0, 8),
+        period=np.linspace(0.4, 2.0, 8),
+    ).dataset
     periodic = int((found.kind == rk.Kind.PERIODIC.code).sum())
     shares = rk.proved_share(found, points=20, seed=3)
     assert (shares.orbits.count, shares.orbits.of) == (20, 20)
@@ -542,7 +544,9 @@ def test_share_of_a_map_names_what_was_refused(monkeypatch):
     from rocking.proof import attraction
 
     monkeypatch.setattr(attraction, "MAX_CYCLES", 2)
-    found = rk.parametric_map(amplitude=[2.0, 2.1], period=[1.0, 1.1], restitution=0.925)
+    found = rk.parametric_map(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925), amplitude=[2.0, 2.1], period=[1.0, 1.1]
+    ).dataset
     shares = rk.proved_share(found)
     assert (shares.orbits.count, shares.starts.count) == (4, 0)
     assert list(shares.reasons.values()) == [4]
@@ -550,13 +554,19 @@ def test_share_of_a_map_names_what_was_refused(monkeypatch):
 
 
 def test_maps_without_periodic_responses_and_full_blocks_are_refused():
-    still = rk.parametric_map(amplitude=[0.5, 0.6], period=[1.0, 1.1], restitution=0.925)
-    with pytest.raises(ValueError, match="found must have periodic responses; the map has none"):
+    still = rk.parametric_map(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925), amplitude=[0.5, 0.6], period=[1.0, 1.1]
+    ).dataset
+    with pytest.raises(ValueError, match="result must have periodic responses; the map has none"):
         rk.proved_share(still)
-    full = rk.parametric_map(amplitude=[2.0, 2.1], period=[1.0, 1.1], restitution=0.925, critical_angle=0.2)
+    full = rk.parametric_map(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925, critical_angle=0.2),
+        amplitude=[2.0, 2.1],
+        period=[1.0, 1.1],
+    ).dataset
     with pytest.raises(ValueError, match="proofs are available for the slender block only"):
         rk.proved_share(full)
     with pytest.raises(ValueError, match="points must"):
         rk.proved_share(full, points=0)
-    with pytest.raises(TypeError, match="found must be a map of responses; got None"):
+    with pytest.raises(TypeError, match="result must be a map of responses; got None"):
         rk.proved_share(None)

@@ -194,7 +194,7 @@ def test_scales_that_overturn_are_those_of_single_motions(thin):
     )
     sure = np.flatnonzero(found.certified.values)
     for number in thin(sure, 12, seed=5):
-        motion = rk.simulate(block.system(record.scaled(float(found["scale"][number]))), record="none")
+        motion = rk.simulate(block.system(record.scaled(float(found["level"][number]))), record="none")
         assert (motion.outcome is rk.Outcome.OVERTURNED) == records.fallen(found)[number]
 
 

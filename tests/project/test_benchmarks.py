@@ -17,11 +17,11 @@ def test_map_of_the_bench_is_the_map(monkeypatch, restitution):
     monkeypatch.setattr(verdicts, "POINTS", 16)
     kinds, grounds, work, _ = verdicts.judged(restitution, 1_000)
     found = rk.parametric_map(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=restitution),
         amplitude=np.linspace(*verdicts.AMPLITUDES, 16),
         period=np.linspace(*verdicts.PERIODS, 16),
-        restitution=restitution,
         max_cycles=1_000,
-    ).transpose("period", "amplitude")
+    ).dataset.transpose("period", "amplitude")
     assert len(set(kinds)) >= 3
     assert np.mean(kinds == found.kind.values.ravel()) > 0.98
     assert np.mean(grounds == found.evidence.values.ravel()) > 0.98

@@ -41,9 +41,11 @@ LONGEST_CALL = 60.0  # s; a call takes some ms
 BLOCK = rk.Block(2.0, 0.5)
 SYSTEM = rk.System(rk.Harmonic(amplitude=7.0, period=1.721328), restitution=0.8)
 CHAOTIC = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(1.0))
+MILD = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 SADDLE = rk.System(rk.Harmonic(amplitude=4.0, period=1.0), restitution=0.8)
 FORCED = rk.System(rk.Harmonic(amplitude=6.0, period=2.0), restitution=0.925)
 LOSSLESS = rk.System(rk.Harmonic(amplitude=4.0, period=0.4), restitution=1.0)
+PULSED = rk.System(rk.Pulse("one-sine", amplitude=2.0, duration=1.0), restitution=0.9)
 GROUND = rk.GroundMotion([0.0, 3.0, -3.0, 2.0, 0.0, 0.0], step=0.1)
 RECORDS = rk.RecordSet([GROUND, rk.GroundMotion([0.0, 2.0, -4.0, 1.0, 0.0], step=0.1)])
 SURVEY = {"records": RECORDS, "block": BLOCK}
@@ -78,7 +80,7 @@ USUAL = {
     },
     "bifurcation_set": lambda: {"system": SYSTEM, "max_period": 1, "grid": 2, "step": 0.1, "amplitude": (6.5, 7.5), "period": (1.7, 1.8)},
     "cascade": lambda: {"special": special("period-doubling"), "bounds": (10.3, 10.9), "doublings": 2},
-    "chaos_share": lambda: {"restitution": 0.8, "samples": 3, "max_cycles": 50},
+    "chaos_share": lambda: {"system": SYSTEM, "samples": 3, "max_cycles": 50},
     "cite": dict,
     "classify": lambda: {"system": SYSTEM, "max_cycles": 500},
     "continue_orbit": lambda: {"orbit": orbit(), "parameter": "amplitude", "bounds": (6.9, 7.1), "max_points": 5},
@@ -87,34 +89,34 @@ USUAL = {
     "find_orbit": lambda: {"system": SYSTEM, "guess": rk.State(orbit().at(0.0).angle, orbit().at(0.0).velocity), "period": 1},
     "find_orbits": lambda: {"system": SYSTEM, "max_period": 1, "effort": 0.01},
     "fragility": lambda: SURVEY | {"levels": [0.5, 5.0, 50.0], "limits": 0.5, "replicates": 100},
-    "frequency_response": lambda: {"period": [1.0, 1.1], "amplitude": 2.0, "modes": (1,), "max_cycles": 50, "step": 0.01},
+    "frequency_response": lambda: {"system": MILD, "period": [1.0, 1.1], "modes": (1,), "max_cycles": 50, "step": 0.01},
     "grazing_transition": lambda: {"special": special("grazing"), "distances": (1e-2, 1e-3, 1e-4, 1e-5), "max_cycles": 50},
     "horseshoe": lambda: {"system": SADDLE, "max_period": 1},
     "impact_section": lambda: {"source": SYSTEM, "cycles": 50},
     "incremental_dynamic_analysis": lambda: SURVEY | {"levels": [0.5, 2.0]},
     "lyapunov": lambda: {"system": CHAOTIC, "cycles": 1_000, "transient": 10},
-    "orbit_diagram": lambda: {"system": SYSTEM, "parameter": "amplitude", "values": [7.0, 7.1], "transient": 5, "cycles": 5},
+    "orbit_diagram": lambda: {"system": SYSTEM, "amplitude": [7.0, 7.1], "transient": 5, "cycles": 5},
     "orbit_manifolds": lambda: {"orbit": saddle(), "length": 0.5},
     "overturning_amplitude": lambda: {
-        "period": [1.0, 1.1], "restitution": 0.8, "amplitude": [1.0, 2.0], "phases": 1, "max_cycles": 20,
+        "system": SYSTEM, "period": [1.0, 1.1], "amplitude": [1.0, 2.0], "phases": 1, "max_cycles": 20,
     },
-    "overturning_set": lambda: SURVEY | {"scales": [0.5, 2.0]},
-    "overturning_spectrum": lambda: {"kind": "one-sine", "amplitude": [1.0, 3.0], "frequency": [1.0, 2.0], "restitution": 0.9},
-    "parametric_map": lambda: {"amplitude": [1.0, 3.0], "period": [1.0, 2.0], "restitution": 0.8, "max_cycles": 20},
+    "overturning_set": lambda: SURVEY | {"levels": [0.5, 2.0]},
+    "overturning_spectrum": lambda: {"system": PULSED, "amplitude": [1.0, 3.0], "frequency": [1.0, 2.0]},
+    "parametric_map": lambda: {"system": SYSTEM, "amplitude": [1.0, 3.0], "period": [1.0, 2.0], "max_cycles": 20},
     "prove": lambda: {"subject": orbit()},
-    "proved_share": lambda: {"found": made("parametric_map"), "points": 3},
+    "proved_share": lambda: {"result": made("parametric_map"), "points": 3},
     "read_ground_motion": lambda: {"source": b"time,acceleration\n0,0\n0.1,1\n0.2,0\n", "units": "g"},
     "read_ground_motions": lambda: {"source": b"time,acceleration\n0,0\n0.1,1\n0.2,0\n", "units": "g"},
     "read_record_set": lambda: {"source": ["record.csv"], "units": "g"},
     "repeatability": lambda: {"system": SYSTEM, "samples": 3, "max_cycles": 50},
     "repeatability_map": lambda: {
-        "amplitude": [1.0, 3.0], "period": [1.0, 2.0], "restitution": 0.8, "samples": 2, "max_cycles": 20,
+        "system": SYSTEM, "amplitude": [1.0, 3.0], "period": [1.0, 2.0], "samples": 2, "max_cycles": 20,
     },
-    "response_diagram": lambda: {"system": SYSTEM, "parameter": "amplitude", "values": [7.0, 7.1], "max_cycles": 50},
+    "response_diagram": lambda: {"system": SYSTEM, "amplitude": [7.0, 7.1], "max_cycles": 50},
     "rocking_spectrum": lambda: {"records": RECORDS, "size": [1.0, 2.0], "slenderness": [0.15, 0.2]},
     "rotation_number": lambda: {"system": LOSSLESS},
     "saddle_manifolds": lambda: {"system": SADDLE, "cycles": 1, "spacing": 0.1},
-    "safe_basin": lambda: {"amplitude": [3.0, 4.0], "period": 1.0, "restitution": 0.8, "samples": 5, "max_cycles": 20},
+    "safe_basin": lambda: {"system": SYSTEM, "amplitude": [3.0, 4.0], "samples": 5, "max_cycles": 20},
     "sensitivity": lambda: SURVEY | {"levels": [0.5, 2.0]},
     "simulate": lambda: {"system": SYSTEM, "cycles": 5},
     "spectral_density": lambda: {"motion": rk.simulate(SYSTEM, cycles=70)},
@@ -220,28 +222,27 @@ def drawn(name):
         "save": lambda: {"figure": Figure(), "path": "figure.png", "dpi": 20.0},
         "title": lambda: {"ax": Figure().subplots(), "text": "title"},
         "thresholds": lambda: {"periods": [1.0, 2.0], "curves": {"x": [1.0, 2.0]}},
-        "tiles": lambda: {"found": made("parametric_map"), "folder": "tiles"},
+        "tiles": lambda: {"result": made("parametric_map"), "folder": "tiles"},
         "animation": lambda: {
-            "motion": rk.simulate(SYSTEM, cycles=1),
+            "result": rk.simulate(SYSTEM, cycles=1),
             "path": "motion.gif",
             "seconds": 0.2,
             "fps": 5.0,
         },
         "branch": lambda: {"result": rk.continue_orbit(orbit(), "amplitude", (6.5, 7.5))},
         "orbits": lambda: {"result": made("find_orbits")},
-        "basins": lambda: {"found": made("basin_map")},
-        "convergence": lambda: {"spectrum": made("lyapunov")},
+        "basins": lambda: {"result": made("basin_map")},
+        "convergence": lambda: {"result": made("lyapunov")},
         "manifolds": lambda: {"result": made("saddle_manifolds")},
-        "overturning": lambda: {"found": made("overturning_amplitude")},
-        "spectrum": lambda: {"density": made("spectral_density")},
-        "verdict": lambda: {"verdict": made("classify")},
+        "overturning": lambda: {"result": made("overturning_amplitude")},
+        "spectrum": lambda: {"result": made("spectral_density")},
+        "verdict": lambda: {"result": made("classify")},
         "section": lambda: {"result": made("simulate")},
         "impact_section": lambda: {"result": made("simulate")},
     }
     if name in special_ones:
         return special_ones[name]()
-    first = next(iter(inspect.signature(getattr(rk.plot, name)).parameters))
-    return {first: made("simulate" if first == "motion" else name)}
+    return {"result": made("simulate" if name in ("overview", "phase_portrait", "time_history") else name)}
 
 
 class Evil:

@@ -59,7 +59,7 @@ def test_files_hold_the_probabilities(rocking, tmp_path):
     data = found.dataset
     told = json.loads(out)
     assert told["record"][-1]["name"] == rk.read_record_set([EXAMPLE_FILE]).names[0]
-    assert [each["fraction"] for each in told["limit_scale"]] == data.fraction.values.ravel().tolist()
+    assert [each["fraction"] for each in told["limit_level"]] == data.fraction.values.ravel().tolist()
     assert [each["limit_rad"] for each in told["limit"]] == [BLOCK.radians(0.1), BLOCK.radians(0.5), None]
     assert told["limit"][2]["median"] == found.fit().median
     assert told["files"] == ["f.csv", "f.nc"]
@@ -104,7 +104,7 @@ def test_a_folder_is_the_set_of_its_files(rocking, tmp_path):
 def test_levels_of_a_study_may_be_a_list(rocking, tmp_path):
     (tmp_path / "study.toml").write_text("pga-g = [0.2, 0.5, 1.4]\nlimit = 0.5\n", encoding="utf-8")
     said = json.loads(rocking(f"fragility {NAMES} --height 2 --width 0.5 --study study.toml --json")[2])
-    assert [each["scale"] for each in said["scale"]] == [0.2, 0.5, 1.4]
+    assert [each["level"] for each in said["level"]] == [0.2, 0.5, 1.4]
 
 
 def test_one_level_gives_the_probability_under_the_records_as_they_are(rocking):
@@ -122,7 +122,7 @@ def test_levels_are_those_of_any_measure(rocking):
     said = json.loads(rocking(f"fragility {NAMES} --height 2 --width 0.5 --pgv 0.1:1:4 --json")[2])
     found = rk.fragility(read(), BLOCK, np.linspace(0.1, 1, 4), intensity="pgv", limits=())
     assert (said["intensity"], said["unit"]) == ("pgv", "m/s")
-    assert [each["fraction"] for each in said["limit_scale"]] == found.dataset.fraction.values[0].tolist()
+    assert [each["fraction"] for each in said["limit_level"]] == found.dataset.fraction.values[0].tolist()
 
 
 def test_one_record_is_warned_of(rocking):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from surveyed import system_with
 
 LINE = "--amplitude 2 --period 0.5:2.5:9 --restitution 0.925"
 SI = "--height 2 --width 0.5 --acceleration 4 --modes 1"
@@ -14,7 +15,9 @@ SI = "--height 2 --width 0.5 --acceleration 4 --modes 1"
 
 @pytest.fixture(scope="module")
 def found():
-    return rk.frequency_response(np.linspace(0.5, 2.5, 9), 2.0, 0.925)
+    return rk.frequency_response(
+        system_with(amplitude=2.0, restitution=0.925), period=np.linspace(0.5, 2.5, 9)
+    )
 
 
 def told(rocking, line):
@@ -42,7 +45,11 @@ def test_modes_frequency_and_number_of_cycles_are_passed_on(rocking):
     line = "--amplitude 10.103037 --frequency 3.65:3.6:2 --restitution 0.8 --modes 5 --modes 1 --step 0.05"
     read = told(rocking, f"{line} --max-cycles 50")
     expected = rk.frequency_response(
-        frequency=[3.6, 3.65], amplitude=10.103037, restitution=0.8, modes=(5, 1), step=0.05, max_cycles=50
+        system_with(amplitude=10.103037, restitution=0.8),
+        frequency=[3.6, 3.65],
+        modes=(5, 1),
+        step=0.05,
+        max_cycles=50,
     )
     assert (read["parameter"], read["modes"]) == ("frequency", [5, 1])
     assert [each["points"] for each in read["branch"]] == [len(branch) for branch in expected.branches]

@@ -12,19 +12,20 @@ import xarray as xr
 import rocking as rk
 from rocking.cli.main import run
 from rocking.model.verdict import Criterion
+from surveyed import system_with
 
 LINE = "map --amplitude 0:16:20 --period 0.2:3:18 --restitution 0.9 --max-cycles 100"
 ASKED = {
+    "system": system_with(restitution=0.9),
     "amplitude": np.linspace(0.0, 16.0, 20),
     "period": np.linspace(0.2, 3.0, 18),
-    "restitution": 0.9,
     "max_cycles": 100,
 }
 
 
 @pytest.fixture(scope="module")
 def found():
-    return rk.parametric_map(**ASKED)
+    return rk.parametric_map(**ASKED).dataset
 
 
 def shares(found):
@@ -245,11 +246,11 @@ def test_json_and_files_of_a_block_have_its_units(rocking):
         rows = list(csv.DictReader(file))
     assert {"amplitude", "frequency"}.isdisjoint(rows[0])
     found = rk.parametric_map(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=block.restitution),
         amplitude=np.linspace(*block.amplitude(np.array([0.3, 0.6]) * 9.80665), 20),
         frequency=np.linspace(*block.frequency(np.array([1.0, 2.0])), 3),
-        restitution=block.restitution,
         max_cycles=50,
-    )
+    ).dataset
     peaks = np.array([float(row["peak [rad]"]) for row in rows])
     np.testing.assert_allclose(peaks, block.radians(found.peak.values.ravel()), rtol=1e-9)
     accelerations = [float(row["acceleration [m/s^2]"]) for row in rows[::3]]

@@ -17,7 +17,9 @@ OVERTURNED = 2
 
 @pytest.fixture(scope="module")
 def found():
-    return rk.overturning_spectrum("one-sine", **PLANE, restitution=0.9)
+    return rk.overturning_spectrum(
+        rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9), **PLANE
+    ).dataset
 
 
 def test_report_has_the_outcomes_and_the_modes(rocking, found):
@@ -64,11 +66,10 @@ def test_units_of_the_block_are_converted(rocking, tmp_path):
     said = json.loads(rocking(f"overturning-spectrum {line} --csv a.csv --netcdf a.nc --json")[2])
     lift_off = BLOCK.acceleration(1.0) / 9.80665
     found = rk.overturning_spectrum(
-        "half-sine",
+        rk.System(rk.Pulse("half-sine", amplitude=1.0, duration=1.0), BLOCK.restitution),
         amplitude=np.linspace(0.3 / lift_off, 2 / lift_off, 9),
         frequency=np.linspace(0.5 / BLOCK.hertz(1.0), 2 / BLOCK.hertz(1.0), 7),
-        restitution=BLOCK.restitution,
-    )
+    ).dataset
     assert said["outcomes"] == {
         name: int((found.outcome == code).sum())
         for code, name in enumerate(("bounded", "at-rest", "overturned"))

@@ -61,22 +61,21 @@ CASES = {
         IN_SI, amplitudes(3.5, 4.0), 0.1
     ),
     "frequency-response --amplitude 2 --period 0.5:2.5:9 --restitution 0.925": lambda: rk.frequency_response(
-        np.linspace(0.5, 2.5, 9), 2.0, 0.925
+        rk.System(rk.Harmonic(2.0, period=1.0), 0.925), period=np.linspace(0.5, 2.5, 9)
     ),
     f"frequency-response {SIZE} --acceleration 4 --frequency-hz 1:2:3 --modes 1": lambda: (
         rk.frequency_response(
+            BLOCK.system(acceleration=4.0, frequency_hz=1.0),
             frequency=np.linspace(*BLOCK.frequency(np.array([1.0, 2.0])), 3),
-            amplitude=float(BLOCK.amplitude(4.0)),
-            restitution=BLOCK.restitution,
             modes=(1,),
         )
     ),
     f"orbit-diagram {TYPED.replace('5.5', '5:6:3')} --transient 50 --cycles 4": lambda: rk.orbit_diagram(
-        SYSTEM, "amplitude", np.linspace(5, 6, 3), transient=50, cycles=4
+        SYSTEM, amplitude=np.linspace(5, 6, 3), transient=50, cycles=4
     ),
     f"orbit-diagram {SIZE} --acceleration 2:9:3 --frequency-hz 1.2 --sweep rest --cycles 2": lambda: (
         rk.orbit_diagram(
-            IN_SI, "amplitude", np.linspace(*amplitudes(2.0, 9.0), 3), sweep="rest", transient=300, cycles=2
+            IN_SI, amplitude=np.linspace(*amplitudes(2.0, 9.0), 3), sweep="rest", transient=300, cycles=2
         )
     ),
     f"basins {SI} --angle=-1:1:5 --velocity=-0.5:0.5:3 --boundary-runs 0": lambda: rk.basin_map(
@@ -87,22 +86,21 @@ CASES = {
     ),
     "safe-basin --amplitude 3:6:4 --period 1 --restitution 0.8 --samples 50 --velocity=-0.5:0.25 --seed 3": lambda: (
         rk.safe_basin(
+            rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8),
             amplitude=np.linspace(3, 6, 4),
-            period=1.0,
-            restitution=0.8,
             samples=50,
             velocity=(-0.5, 0.25),
             seed=3,
         )
     ),
     f"safe-basin {SIZE} --acceleration 2:10:5 --frequency-hz 1.2 --samples 50": lambda: rk.safe_basin(
+        rk.System(rk.Harmonic(1.0, frequency=IN_SI.forcing.frequency), restitution=BLOCK.restitution),
         amplitude=np.linspace(*amplitudes(2.0, 10.0), 5),
-        frequency=IN_SI.forcing.frequency,
-        restitution=BLOCK.restitution,
         samples=50,
     ),
     "overturning --period 1.2:2.2:3 --restitution 0.8:0.9:2 --amplitude 1:6:21 --phases 2 --max-cycles 50": lambda: (
         rk.overturning_amplitude(
+            rk.System(rk.Harmonic(1.0, period=1.0), restitution=1.0),
             period=np.linspace(1.2, 2.2, 3),
             restitution=[0.8, 0.9],
             amplitude=np.linspace(1, 6, 21),
@@ -112,14 +110,17 @@ CASES = {
     ),
     "overturning --period 1.2 --restitution 0.8 --amplitude 1:6:21 --phases 2 --max-cycles 50": lambda: (
         rk.overturning_amplitude(
-            period=1.2, restitution=0.8, amplitude=np.linspace(1, 6, 21), phases=2, max_cycles=50
+            rk.System(rk.Harmonic(1.0, period=1.2), restitution=0.8),
+            amplitude=np.linspace(1, 6, 21),
+            phases=2,
+            max_cycles=50,
         )
     ),
     # The first hits lie at a plain edge. In a fractal, the last digits of an amplitude would move them.
     f"overturning {SIZE} --frequency-hz 1.5:2:2 --acceleration-g 0.2:1:41 --phases 2 --max-cycles 100": lambda: (
         rk.overturning_amplitude(
+            rk.System(rk.Harmonic(1.0, period=1.0), restitution=BLOCK.restitution),
             frequency=BLOCK.frequency(HERTZ),
-            restitution=BLOCK.restitution,
             amplitude=BLOCK.amplitude(9.80665 * np.linspace(0.2, 1, 41)),
             phases=2,
             max_cycles=100,

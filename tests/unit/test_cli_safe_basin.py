@@ -7,6 +7,7 @@ import pytest
 
 import rocking as rk
 from rocking.model.block_formulas import GRAVITY
+from surveyed import system_with
 
 LINE = "--amplitude 3:6:4 --period 1 --restitution 0.8 --samples 200"
 BLOCK = rk.Block(2.0, 0.5)
@@ -15,16 +16,15 @@ KEY = "acceleration_m_per_s2"
 
 
 def basin(**change):
-    usual = {"amplitude": np.linspace(3, 6, 4), "period": 1.0, "restitution": 0.8, "samples": 200}
+    usual = {"system": system_with(restitution=0.8), "amplitude": np.linspace(3, 6, 4), "samples": 200}
     return rk.safe_basin(**usual | change)
 
 
 def basin_in_si():
     system = BLOCK.system(acceleration=2.0, frequency_hz=1.2)
     return rk.safe_basin(
+        rk.System(rk.Harmonic(1.0, frequency=system.forcing.frequency), restitution=system.restitution),
         amplitude=np.linspace(1, 5, 5) * system.forcing.amplitude,
-        frequency=system.forcing.frequency,
-        restitution=system.restitution,
         samples=100,
     )
 

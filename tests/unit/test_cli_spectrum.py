@@ -34,7 +34,7 @@ def told(rocking, line):
 
 
 def test_report_says_records_blocks_and_outcomes(rocking):
-    found = rk.rocking_spectrum(rk.read_record_set("set"), size=SIZES, slenderness=ANGLE)
+    found = rk.rocking_spectrum(rk.read_record_set("set"), size=SIZES, slenderness=ANGLE).dataset
     out = told(rocking, "set --size 0.3:3:10 --slenderness-deg 10")
     text = " ".join(out.split())
     fell = int(np.isinf(found.peak).sum())
@@ -66,8 +66,8 @@ def test_report_says_records_blocks_and_outcomes(rocking):
 )
 def test_each_source_gives_the_numbers_of_the_function(rocking, source, read):
     found = rk.rocking_spectrum(
-        rk.read_record_set(read), size=SIZES, slenderness=ANGLE, scale=0.4, intensity="pga-g"
-    )
+        rk.read_record_set(read), size=SIZES, slenderness=ANGLE, levels=0.4, intensity="pga-g"
+    ).dataset
     said = json.loads(
         told(rocking, f"{source} --size 0.3:3:10 --slenderness-deg 10 --pga-g 0.4 --netcdf out.nc --json")
     )
@@ -78,7 +78,7 @@ def test_each_source_gives_the_numbers_of_the_function(rocking, source, read):
     assert list(said["outcomes"].values()) == counts
     assert said["runs"] == found.outcome.size
     assert [each["name"] for each in said["records"]] == list(rk.read_record_set(read).names)
-    assert said["scale"] == 0.4
+    assert said["level"] == 0.4
     assert said["files"] == ["out.nc"]
 
 
@@ -104,7 +104,7 @@ def test_table_has_a_row_per_run_with_units(rocking, tmp_path):
         rk.read_record_set("set"),
         size=np.linspace(0.3, 3.0, 4),
         slenderness=np.radians(np.linspace(8, 10, 2)),
-    )
+    ).dataset
     assert [float(row["peak [theta_cr]"]) for row in rows] == found.peak.values.ravel().tolist()
     margins = [float(row["margin [alpha theta_cr]"]) for row in rows]
     np.testing.assert_array_equal(margins, found.margin.values.ravel())

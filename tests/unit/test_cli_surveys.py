@@ -60,7 +60,10 @@ def test_overturning_lists_the_lowest_amplitudes(rocking):
     code, message, out = rocking(f"{CURVE} --json")
     told = json.loads(out, parse_constant=pytest.fail)
     found = rk.overturning_amplitude(
-        period=np.linspace(1.2, 2.2, 3), restitution=0.925, amplitude=np.linspace(1, 6, 21), phases=2
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+        period=np.linspace(1.2, 2.2, 3),
+        amplitude=np.linspace(1, 6, 21),
+        phases=2,
     ).dataset
     assert (code, message) == (0, "")
     assert [row["lowest"] for row in told["period"]] == found.lowest.values.tolist()

@@ -38,6 +38,7 @@ from rocking.plot import style
 from rocking.plot.style import LOOKS, NONE, looks
 from rocking.survey import attractors
 from rocking.survey.run_survey import cores
+from surveyed import system_with
 
 ASYMMETRIC = 2
 """Place in `LOOKS` of an asymmetric response of period 1."""
@@ -195,7 +196,7 @@ def test_full_block_is_in_the_link_the_code_and_the_commands(rocking):
     found = {}
     exec(texts.python(shown).replace("101)", "3)"), found)
     assert found["system"] == shown.system
-    assert found["found"].attrs["critical_angle"] == 0.25
+    assert found["found"].dataset.attrs["critical_angle"] == 0.25
 
 
 def test_full_block_in_metres_has_the_critical_angle_of_its_size():
@@ -327,9 +328,8 @@ def test_refined_map_is_the_packages_map(block):
         ("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925} | block, 33
     )
     pictures = refined(plane)
-    found = rk.parametric_map(
-        period=np.linspace(0.2, 3, 33), amplitude=np.linspace(0, 16, 33), restitution=0.925, **block
-    )
+    axes = {"period": np.linspace(0.2, 3, 33), "amplitude": np.linspace(0, 16, 33)}
+    found = rk.parametric_map(system_with(restitution=0.925, **block), **axes).dataset
     names = "kind", "response_period", "symmetric"
     assert (pictures[-1].look == looks(*(found[name].values for name in names))).all()
     assert [len(picture.look) for picture in (pictures[0], pictures[-1])] == [5, 33]
@@ -396,7 +396,7 @@ def test_coarse_map_calls_undetermined_what_it_cannot_know():
     assert (last.look == chaotic).any()
     # the open points of the coarse map are classified again
     axes = {"period": np.linspace(1.1, 1.2, 9), "amplitude": np.linspace(6.95, 7.05, 9)}
-    found = rk.parametric_map(**axes, restitution=0.3)
+    found = rk.parametric_map(system_with(restitution=0.3), **axes).dataset
     names = "kind", "response_period", "symmetric"
     assert (last.look == looks(*(found[name].values for name in names))).all()
 
@@ -603,10 +603,10 @@ def test_job_waits_for_another_however_that_ends():
 def test_diagram_that_is_no_longer_wanted_ends_midway(monkeypatch):
     stop, done = np.zeros(1, np.int64), []
 
-    def piece(system, parameter, values, *rest):
+    def piece(system, start, **named):
         stop[0] = 1
-        done.append(len(values))
-        return rk.orbit_diagram(system, parameter, values, *rest)
+        done.append(len(named[DEFAULT.vary]))
+        return rk.orbit_diagram(system, start, **named)
 
     monkeypatch.setattr(figure_data, "orbit_diagram", piece)
     monkeypatch.setattr(figure_data, "PIECE_HITS", 5e3)
@@ -635,7 +635,9 @@ def test_diagram_costs_what_its_dearest_values_cost(monkeypatch):
     """The one selected may be cheap."""
     asked = []
     monkeypatch.setattr(
-        figure_data, "orbit_diagram", lambda *given: asked.append(given) or rk.orbit_diagram(*given)
+        figure_data,
+        "orbit_diagram",
+        lambda *given, **named: asked.append(given) or rk.orbit_diagram(*given, **named),
     )
     monkeypatch.setattr(figure_data, "SOON_HITS", 5.0)
     shown = changed(DEFAULT, {"amplitude": "0", "restitution": "0.98", "brace_angle": "0.01"})
@@ -709,7 +711,9 @@ def test_case_of_the_gallery_has_an_address_and_lines_of_python(case):
 
 
 def test_codes_of_criteria_in_a_map_have_the_level_that_classify_gives():
-    found = rk.parametric_map(amplitude=[0.5, 2.0], period=[1.0, 2.0], restitution=0.925)
+    found = rk.parametric_map(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925), amplitude=[0.5, 2.0], period=[1.0, 2.0]
+    ).dataset
     for amplitude, period in ((0.5, 1.0), (2.0, 1.0), (2.0, 2.0)):
         verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))
         assert (

@@ -300,7 +300,7 @@ def test_every_point_of_the_map_is_that_of_the_rocking_spectrum(workers, model):
     assert [picture.done for picture in found] == [False] * (len(found) - 1) + [True]
     places = np.arange(0, POINTS, 19)
     sizes, angles = PLANE.sizes_of(POINTS)[places], np.radians(PLANE.angles_of(POINTS)[places])
-    spectrum = rk.rocking_spectrum(SHORT, size=sizes, slenderness=angles, scale=1.3, model=model)
+    spectrum = rk.rocking_spectrum(SHORT, size=sizes, slenderness=angles, levels=1.3, model=model).dataset
     for name, values in found[-1].fields.items():
         expected = spectrum[name].transpose("slenderness", "size").values
         assert values[np.ix_(places, places)] == pytest.approx(expected, rel=1e-6, nan_ok=True), name

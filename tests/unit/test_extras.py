@@ -17,7 +17,8 @@ MOTION = rk.simulate(SYSTEM, cycles=3)
 BLOCK = "--height 2 --width 0.5"
 RUN = "--amplitude 2 --period 1 --restitution 0.925"
 MAP = "map --amplitude 1:2:2 --period 1:2:2 --restitution 0.925"
-GRID = {"amplitude": [1.0, 2.0], "period": [1.0, 2.0], "restitution": 0.925}
+SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+GRID = {"system": SYSTEM, "amplitude": [1.0, 2.0], "period": [1.0, 2.0]}
 STORES = "stores need Zarr and numcodecs"
 NETCDF = "netCDF files need h5netcdf and h5py"
 FILM = "MP4 files need imageio-ffmpeg"

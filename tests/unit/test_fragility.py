@@ -61,7 +61,7 @@ def compared(records, count, seed):
         base = records[record].scaled(pga=LEVELS[level])
         forcing = base.normalised(GRAVITY * slenderness, math.sqrt(0.75 * GRAVITY / size))
         motion = rk.simulate(rk.System(forcing, restitution))
-        run = found.isel(record=record, sample=sample, scale=level)
+        run = found.isel(record=record, sample=sample, level=level)
         if not (motion.certified and int(run.certified)):
             continue
         certified += 1
@@ -314,7 +314,7 @@ def coverage(population, sets, sizes, fitted):
     levels = np.linspace(3.0, 10.0, 8)
     records = rk.synthetic_ground_motions(population, seed=3)
     peaks = rk.incremental_dynamic_analysis(records, BLOCK, levels, intensity="pga").dataset.peak
-    fell = np.isinf(peaks.transpose("record", "scale").values)
+    fell = np.isinf(peaks.transpose("record", "level").values)
     truth = fell.mean(axis=0)
     of_all = lognormal_fits(levels, fell.sum(axis=0)[None], np.full((1, 8), float(population)))
     parameters = (float(of_all.median[0]), float(of_all.dispersion[0]))

@@ -26,10 +26,10 @@ MADE = {
     "CorrelationDimension": lambda: rk.correlation_dimension(np.random.default_rng(1).uniform(size=(20_000, 2))),
     "Branch": branch,
     "BifurcationCurve": lambda: rk.bifurcation_curve(branch().special[0], "period", "amplitude", ((1, 1.2), (1, 30))),
-    "OrbitDiagram": lambda: rk.orbit_diagram(PERIODIC, "amplitude", [14.0, 15.0], cycles=5, transient=5),
-    "ResponseDiagram": lambda: rk.response_diagram(PERIODIC, "amplitude", [0.5, 14.0, 15.0]),
+    "OrbitDiagram": lambda: rk.orbit_diagram(PERIODIC, amplitude=[14.0, 15.0], cycles=5, transient=5),
+    "ResponseDiagram": lambda: rk.response_diagram(PERIODIC, amplitude=[0.5, 14.0, 15.0]),
     "SaddleManifolds": lambda: rk.saddle_manifolds(rk.System(rk.Harmonic(amplitude=4.0, period=1.0), restitution=0.8)),
-    "FrequencyResponse": lambda: rk.frequency_response(amplitude=2.0, period=np.linspace(0.9, 1.1, 3), restitution=0.9, modes=(1,)),
+    "FrequencyResponse": lambda: rk.frequency_response(PERIODIC, period=[0.9, 1.0, 1.1], modes=(1,)),
 }  # fmt: skip
 AGAIN = {
     "itself": lambda value: value,

@@ -29,7 +29,7 @@ def test_peaks_are_those_of_single_simulations(records, found):
     for number, record in enumerate(records):
         for place, level in enumerate(LEVELS):
             motion = rk.simulate(BLOCK.system(record.scaled(pga=level)))
-            run = found.dataset.isel(record=number, scale=place)
+            run = found.dataset.isel(record=number, level=place)
             assert motion.certified
             assert int(run.certified)
             over = motion.outcome == "overturned"
@@ -83,7 +83,7 @@ def test_scatter_is_half_the_logarithm_of_the_ratio_of_fractiles(found):
 
 def test_one_record_is_a_set_of_one():
     found = rk.incremental_dynamic_analysis(rk.example_ground_motion(), BLOCK, [1.0, 10.0])
-    assert found.dataset.peak.dims == ("record", "scale")
+    assert found.dataset.peak.dims == ("record", "level")
     assert found.dataset.name.values.tolist() == ["San Francisco, 1295 Shafter, F, 360°"]
     assert found.fractiles(0.5).values.tolist() == found.dataset.peak.values.tolist()
 

@@ -7,7 +7,7 @@ import pytest
 
 import rocking as rk
 from rocking.model.record_set import INTENSITIES, intensity_of
-from rocking.survey.spec import motion_question
+from rocking.survey.spec import motion_spec
 
 GRAVITY = 9.80665
 MOTIONS = [
@@ -23,7 +23,7 @@ GIVEN = {
     "restitution": None,
     "angle": 0.0,
     "polarity": 1.0,
-    "scale": [1.0, 2.0],
+    "level": [1.0, 2.0],
 }
 
 VALUES = {
@@ -119,10 +119,10 @@ def test_choices_of_an_intensity_include_the_columns():
 
 
 def test_question_keeps_axes_numbers_and_records():
-    spec = motion_question(RECORDS, GIVEN, intensity="pga")
+    spec = motion_spec(RECORDS, GIVEN, intensity="pga")
     assert {name: values.tolist() for name, values in spec.axes.items()} == {
         "record": [0.0, 1.0],
-        "scale": [1.0, 2.0],
+        "level": [1.0, 2.0],
     }
     assert spec.fixed == {
         "size": 1.0,
@@ -132,20 +132,20 @@ def test_question_keeps_axes_numbers_and_records():
         "inertia_ratio": 4 / 3,
     }
     assert spec.digest == RECORDS.digest
-    alone = motion_question(rk.RecordSet(MOTIONS[0]), GIVEN, intensity="pga")
-    assert list(alone.axes) == ["scale"]
-    part = spec.with_axes({"record": np.array([1.0]), "scale": np.array([2.0])})
+    alone = motion_spec(rk.RecordSet(MOTIONS[0]), GIVEN, intensity="pga")
+    assert list(alone.axes) == ["level"]
+    part = spec.with_axes({"record": np.array([1.0]), "level": np.array([2.0])})
     assert part.motions == {1: MOTIONS[1]}
 
 
 def test_runs_at_points_are_those_of_scaled_motions_and_blocks():
-    spec = motion_question(RECORDS, GIVEN | {"polarity": [-1.0, 1.0]}, intensity="arias")
+    spec = motion_spec(RECORDS, GIVEN | {"polarity": [-1.0, 1.0]}, intensity="arias")
     points = np.meshgrid(*spec.axes.values(), indexing="ij")
     values = {name: each.ravel() for name, each in zip(spec.axes, points, strict=True)}
     runs = spec.inputs(values)
     for place, number in enumerate(values["record"].astype(int)):
         motion = MOTIONS[number]
-        factor = values["polarity"][place] * np.sqrt(values["scale"][place] / motion.arias_intensity)
+        factor = values["polarity"][place] * np.sqrt(values["level"][place] / motion.arias_intensity)
         assert runs.factor[place] * GRAVITY * 0.2 == pytest.approx(factor, rel=1e-14)
         assert runs.restitution[place] == 1 - 1.5 * np.sin(0.2) ** 2
         assert runs.frequency_parameter[place] == np.sqrt(3 * GRAVITY / 4)
@@ -185,18 +185,18 @@ REFUSED = {
         ValueError,
         "polarity must be 1, -1 or [-1, 1]; got 0.0",
     ),
-    "scale 0": ({"scale": 0.0}, {}, ValueError, "scale must lie in [1e-09, 1e+06]; got 0.0"),
+    "scale 0": ({"level": 0.0}, {}, ValueError, "levels must lie in [1e-09, 1e+06]; got 0.0"),
     "negative scale": (
-        {"scale": [-1.0, 1.0]},
+        {"level": [-1.0, 1.0]},
         {},
         ValueError,
-        "scale must hold two numbers or more in [1e-09, 1e+06], asc",
+        "levels must hold two numbers or more in [1e-09, 1e+06], asc",
     ),
     "descending": (
-        {"scale": [2.0, 1.0]},
+        {"level": [2.0, 1.0]},
         {},
         ValueError,
-        "scale must hold two numbers or more in [1e-09, 1e+06], asc",
+        "levels must hold two numbers or more in [1e-09, 1e+06], asc",
     ),
     "restitution": ({"restitution": 1.1}, {}, ValueError, "restitution must lie in [0, 1]; got 1.1"),
     "inertia": ({}, {"inertia_ratio": 0.5}, ValueError, "inertia_ratio must lie in "),
@@ -213,13 +213,13 @@ REFUSED = {
 def test_quantity_that_no_survey_can_have_is_refused_in_one_line(case):
     change, more, error, message = REFUSED[case]
     with pytest.raises(error, match=f"^{re.escape(message)}") as caught:
-        motion_question(RECORDS, GIVEN | change, **({"intensity": "scale"} | more))
+        motion_spec(RECORDS, GIVEN | change, **({"intensity": "scale"} | more))
     assert "\n" not in str(caught.value)
 
 
 def test_squat_block_with_a_restitution_of_its_own_is_a_block():
     assert (
-        motion_question(RECORDS, GIVEN | {"slenderness": 1.2, "restitution": 0.3}, intensity="scale").fixed[
+        motion_spec(RECORDS, GIVEN | {"slenderness": 1.2, "restitution": 0.3}, intensity="scale").fixed[
             "restitution"
         ]
         == 0.3

@@ -48,13 +48,17 @@ def test_a_number_is_taken_in_any_form_without_dimensions(form):
     assert rk.Block(form(2), form(0.5)) == rk.Block(2.0, 0.5)
     assert type(rk.Block(2.0, 0.5).seconds(form(1))) is float
     diagram = rk.orbit_diagram(
-        system, "amplitude", [14.0, 15.0], cycles=form(5), transient=form(0), section_phase=form(0.5)
+        system, amplitude=[14.0, 15.0], cycles=form(5), transient=form(0), section_phase=form(0.5)
     )
     assert diagram.section_phase == 0.5
     found = rk.parametric_map(
-        amplitude=[2.0, 3.0], period=[1.0, 2.0], restitution=form(0.5), max_cycles=form(10)
-    )
-    assert found.attrs["restitution"] == 0.5
+        system,
+        rk.State(form(0.25)),
+        amplitude=[2.0, 3.0],
+        period=[1.0, 2.0],
+        max_cycles=form(10),
+    ).dataset
+    assert (found.attrs["restitution"], found.attrs["angle"]) == (0.5, 0.25)
     assert rk.theory.free_impact_speed(form(0.5)) == rk.theory.free_impact_speed(0.5)
 
 
@@ -138,7 +142,11 @@ def test_masked_values_are_refused(value):
 def test_masked_point_of_an_axis_is_refused():
     masked = np.ma.array(np.linspace(1.0, 2.0, 6), mask=[0, 1, 0, 0, 0, 0])
     with pytest.raises(ValueError, match="^amplitude must hold no masked values"):
-        rk.parametric_map(amplitude=masked, period=np.linspace(1.0, 2.0, 3), restitution=0.9)
+        rk.parametric_map(
+            rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.9),
+            amplitude=masked,
+            period=np.linspace(1.0, 2.0, 3),
+        )
 
 
 def test_array_whose_mask_hides_nothing_is_taken():
@@ -190,7 +198,9 @@ def test_no_closed_form_takes_masked_values_or_numbers_beyond_all_floats(functio
         lambda value: rk.Harmonic(2.0, period=1.0).acceleration(value),
         BLOCK.frequency,
         lambda value: rk.plot.melnikov(value, 1.0, 0.9),
-        lambda value: rk.chaos_share(restitution=value, samples=5),
+        lambda value: rk.chaos_share(
+            rk.System(rk.Harmonic(1.0, period=1.0), restitution=1.0), restitution=value, samples=5
+        ),
     ],
     ids=["at", "acceleration", "frequency", "melnikov", "chaos_share"],
 )

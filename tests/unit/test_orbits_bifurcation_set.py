@@ -161,8 +161,10 @@ def test_picture_refuses_axes_of_other_quantities():
     system, _, bounds = SYSTEMS["e 0.8"]
     found = rk.bifurcation_set(system, 1, grid=2, **bounds)
     turned = rk.parametric_map(
-        amplitude=np.linspace(2, 14, 3), period=np.linspace(1.2, 2.6, 3), restitution=0.8
-    )
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8),
+        amplitude=np.linspace(2, 14, 3),
+        period=np.linspace(1.2, 2.6, 3),
+    ).dataset
     ax = rk.plot.parametric_map(turned)
     keys = [text.get_text() for text in ax.get_legend().get_texts()]
     rk.plot.bifurcation_set(found, ax)
@@ -179,7 +181,7 @@ def test_legend_over_a_map_fits_the_figure_also_with_small_shares(block):
     """One point of 3,600 has a share of 0.03 %, whose name is long."""
     system, _, bounds = SYSTEMS["e 0.8"]
     plane = {name: np.linspace(*ends, 60) for name, ends in bounds.items()}
-    found = rk.parametric_map(**plane, restitution=0.8, max_cycles=1)
+    found = rk.parametric_map(system, **plane, max_cycles=1).dataset
     found.kind[:], found.response_period[:], found.symmetric[:] = rk.Kind.PERIODIC.code, 1, 0
     found.response_period[0, 0] = 3  # the two longest names, side by side
     check_legend(rk.plot.parametric_map(found, block=block))

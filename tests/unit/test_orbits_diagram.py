@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from rocking.model.progress import Bar
 
 CASCADE = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
 MILD = rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925)
@@ -53,7 +54,7 @@ def differ(points, other):
 def test_sweep_is_one_plain_run_after_another(way):
     """Up to where the motion is chaotic differences grow by no more than a hundredfold: 1e-12."""
     values = [7.0, 8.0, 9.5, 10.5, 10.6, 10.7]
-    diagram = rk.orbit_diagram(CASCADE, "amplitude", values, sweep=way, transient=30, cycles=20)
+    diagram = rk.orbit_diagram(CASCADE, amplitude=values, sweep=way, transient=30, cycles=20)
     state, order = rk.State(), range(6) if way == "up" else range(5, -1, -1)
     for k in order:
         points, peak, state = one(with_value(CASCADE, "amplitude", values[k]), state, 30, 20, 0.0)
@@ -64,9 +65,9 @@ def test_sweep_is_one_plain_run_after_another(way):
 
 def test_both_ways_are_the_two_sweeps():
     values = np.linspace(7.0, 10.9, 14)
-    both = rk.orbit_diagram(CASCADE, "amplitude", values, transient=50, cycles=9)
+    both = rk.orbit_diagram(CASCADE, amplitude=values, transient=50, cycles=9)
     for row, way in enumerate(both.sweeps):
-        alone = rk.orbit_diagram(CASCADE, "amplitude", values[::-1], sweep=way, transient=50, cycles=9)
+        alone = rk.orbit_diagram(CASCADE, amplitude=values[::-1], sweep=way, transient=50, cycles=9)
         np.testing.assert_array_equal(both.points[row], alone.points[0])
         np.testing.assert_array_equal(both.overturned[row], alone.overturned[0])
     assert both.sweeps == ("up", "down")
@@ -87,7 +88,9 @@ def test_both_ways_are_the_two_sweeps():
 def test_motions_of_their_own_are_plain_runs_for_every_parameter(system, name, values):
     """A few cycles, so that even between braces no difference of rounding grows beyond 1e-9."""
     start = rk.State(0.2, -0.1)
-    diagram = rk.orbit_diagram(system, name, values, start, "rest", transient=3, cycles=5, section_phase=0.7)
+    diagram = rk.orbit_diagram(
+        system, start, **{name: values}, sweep="rest", transient=3, cycles=5, section_phase=0.7
+    )
     for k, value in enumerate(values):
         points, peak, _ = one(with_value(system, name, value), start, 3, 5, 0.7)
         assert bool(diagram.overturned[0, k]) == (points is None)
@@ -99,7 +102,7 @@ def test_motions_of_their_own_are_plain_runs_for_every_parameter(system, name, v
 
 def test_overturned_motion_leaves_no_points_and_the_next_begins_where_it_began():
     values = [10.0, 11.2, 11.5, 10.5]
-    diagram = rk.orbit_diagram(CASCADE, "amplitude", values, sweep="down", transient=40, cycles=6)
+    diagram = rk.orbit_diagram(CASCADE, amplitude=values, sweep="down", transient=40, cycles=6)
     assert diagram.values.tolist() == sorted(values)
     assert diagram.overturned.tolist() == [[False, False, True, True]]
     assert np.isnan(diagram.points[0, 2:]).all()
@@ -113,10 +116,10 @@ def test_overturned_motion_leaves_no_points_and_the_next_begins_where_it_began()
 def test_overturning_after_the_transient_counts_too():
     falling = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
     after = rk.simulate(falling).overturning.cycle
-    diagram = rk.orbit_diagram(falling, "amplitude", [1.75], sweep="rest", transient=after - 1, cycles=3)
+    diagram = rk.orbit_diagram(falling, amplitude=[1.75], sweep="rest", transient=after - 1, cycles=3)
     assert diagram.overturned.all()
     assert str(diagram).endswith("each from the initial state, overturned at 1.75")
-    shorter = rk.orbit_diagram(falling, "amplitude", [1.75], sweep="rest", transient=after - 3, cycles=2)
+    shorter = rk.orbit_diagram(falling, amplitude=[1.75], sweep="rest", transient=after - 3, cycles=2)
     assert not shorter.overturned.any()
 
 
@@ -127,12 +130,12 @@ def test_braces_that_come_nearer_push_the_block_back_to_them():
     assert abs(state.angle) > 0.3
     pushed = rk.State(math.copysign(0.3, state.angle), state.velocity)
     points, _, _ = one(with_value(BRACED, "brace_angle", 0.3), pushed, 0, 7, 0.0)
-    diagram = rk.orbit_diagram(BRACED, "brace_angle", values, sweep="down", transient=0, cycles=7)
+    diagram = rk.orbit_diagram(BRACED, brace_angle=values, sweep="down", transient=0, cycles=7)
     assert differ(diagram.points[0, 0], points) < 1e-9
 
 
 def test_at_rest_every_point_is_the_origin():
-    diagram = rk.orbit_diagram(CASCADE, "amplitude", [0.0, 0.9], sweep="rest", transient=2, cycles=4)
+    diagram = rk.orbit_diagram(CASCADE, amplitude=[0.0, 0.9], sweep="rest", transient=2, cycles=4)
     assert not diagram.points.any()
     assert not diagram.peak.any()
 
@@ -140,7 +143,7 @@ def test_at_rest_every_point_is_the_origin():
 def test_cascade_doubles_turns_chaotic_and_overturns():
     """Periods as the exact multipliers of the branch have them: doublings near 10.473, 10.69, 10.725; the end near 10.75."""
     values = [7.3, 7.4, 10.46, 10.48, 10.68, 10.70, 10.72, 10.727, 10.74, 10.76]
-    diagram = rk.orbit_diagram(CASCADE, "amplitude", values, sweep="up", transient=5000, cycles=256)
+    diagram = rk.orbit_diagram(CASCADE, amplitude=values, sweep="up", transient=5000, cycles=256)
     assert diagram.overturned.tolist() == [[False] * 9 + [True]]
     assert distinct(diagram.points[0, :8]) == [1, 1, 1, 2, 2, 4, 4, 8]
     assert distinct(diagram.points[0, 8:9])[0] > 200
@@ -151,7 +154,13 @@ def test_two_sweeps_may_follow_the_two_mirror_images_born_at_symmetry_breaking()
     tilted = rk.State(0.2, 0.0)
     both = [
         rk.orbit_diagram(
-            CASCADE, "amplitude", [7.32, 7.35], start, "rest", transient=30_000, cycles=1, section_phase=phase
+            CASCADE,
+            start,
+            amplitude=[7.32, 7.35],
+            sweep="rest",
+            transient=30_000,
+            cycles=1,
+            section_phase=phase,
         )
         for start, phase in ((rk.State(), 0.0), (tilted, 0.0), (rk.State(), math.pi), (tilted, math.pi))
     ]
@@ -164,7 +173,7 @@ def test_two_sweeps_may_follow_the_two_mirror_images_born_at_symmetry_breaking()
 
 def test_orbit_of_period_three_doubles_into_chaos_beside_it():
     values = [10.04, 10.06, 10.08, 10.088, 10.097, 10.103, 10.12]
-    diagram = rk.orbit_diagram(CASCADE, "amplitude", values, sweep="rest", transient=5000, cycles=256)
+    diagram = rk.orbit_diagram(CASCADE, amplitude=values, sweep="rest", transient=5000, cycles=256)
     counts = distinct(diagram.points[0])
     assert counts[:5] + counts[6:] == [1, 3, 3, 6, 12, 1]
     assert counts[5] > 200
@@ -173,7 +182,7 @@ def test_orbit_of_period_three_doubles_into_chaos_beside_it():
 def test_dataset_names_everything_and_comes_back_from_a_file(tmp_path):
     import xarray as xr
 
-    diagram = rk.orbit_diagram(BRACED, "brace_angle", [0.5, 1.0], transient=5, cycles=3)
+    diagram = rk.orbit_diagram(BRACED, brace_angle=[0.5, 1.0], transient=5, cycles=3)
     diagram.to_xarray().to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     with xr.open_dataset(tmp_path / "a.nc") as read:
         assert read["angle"].dims == ("sweep", "brace_angle", "cycle")
@@ -184,12 +193,13 @@ def test_dataset_names_everything_and_comes_back_from_a_file(tmp_path):
         assert "brace_angle" not in read.attrs
 
 
-def test_progress_counts_every_value_of_every_sweep():
+def test_progress_counts_every_value_of_every_sweep(monkeypatch):
+    done = []
+    monkeypatch.setattr(Bar, "advance", lambda bar, count: done.append(count))
     for sweep, times in (("both", 2), ("rest", 1)):
-        done = []
-        rk.orbit_diagram(
-            CASCADE, "amplitude", np.linspace(2, 5, 37), None, sweep, 100_000, 1, progress=done.append
-        )
+        done.clear()
+        amplitudes = np.linspace(2, 5, 37)
+        rk.orbit_diagram(CASCADE, amplitude=amplitudes, sweep=sweep, transient=100_000, cycles=1)
         assert sum(done) == 37 * times
         assert len(done) > 1
 
@@ -198,14 +208,14 @@ def test_progress_counts_every_value_of_every_sweep():
     "change, error, message",
     [
         (dict(system=3), TypeError, "system must be a System; got 3"),
-        (dict(parameter="width"), ValueError, "parameter must be one of 'amplitude', .*; got 'width'"),
-        (dict(values=[]), ValueError, r"values must be 1 to 33,554,432 finite numbers; got \[\]"),
-        (dict(values=[1.0, math.nan]), ValueError, "values must be 1 to .* finite numbers"),
-        (dict(values=["a"]), TypeError, "values must be a real number or an array"),
-        (dict(values=[1.0, -1.0]), ValueError, r"amplitude must lie in \[0, 1000\]; got -1.0"),
-        (dict(parameter="restitution", values=[1.5]), ValueError, r"restitution must lie in \[0, 1\]"),
+        (dict(amplitude=None), TypeError, "give exactly one of amplitude, period, .*; got none"),
+        (dict(amplitude=[]), ValueError, r"amplitude must be 1 to 33,554,432 finite numbers; got \[\]"),
+        (dict(amplitude=[1.0, math.nan]), ValueError, "amplitude must be 1 to .* finite numbers"),
+        (dict(amplitude=["a"]), TypeError, "amplitude must be a real number or an array"),
+        (dict(amplitude=[1.0, -1.0]), ValueError, r"amplitude must lie in \[0, 1000\]; got -1.0"),
+        (dict(amplitude=None, restitution=[1.5]), ValueError, r"restitution must lie in \[0, 1\]"),
         (
-            dict(parameter="brace_restitution", values=[0.5]),
+            dict(amplitude=None, brace_restitution=[0.5]),
             ValueError,
             "brace_restitution needs a system with",
         ),
@@ -217,7 +227,7 @@ def test_progress_counts_every_value_of_every_sweep():
     ],
 )
 def test_refusals_are_one_line(change, error, message):
-    given = dict(system=CASCADE, parameter="amplitude", values=[1.0]) | change
+    given = dict(system=CASCADE, amplitude=[1.0]) | change
     with pytest.raises(error, match=f"^{message}") as refused:
         rk.orbit_diagram(**given)
     assert "\n" not in str(refused.value)

@@ -262,10 +262,10 @@ def test_intervals_end_at_the_last_double_that_overturns():
     ("given", "message"),
     [
         (
-            {"scales": [2.0, 1.0]},
-            "scales must hold two numbers or more in [1e-09, 1e+06], ascending; got 2.0",
+            {"levels": [2.0, 1.0]},
+            "levels must hold two numbers or more in [1e-09, 1e+06], ascending; got 2.0",
         ),
-        ({"scales": 2.0}, "scales must hold two numbers or more in [1e-09, 1e+06], ascending; got"),
+        ({"levels": 2.0}, "levels must hold two numbers or more in [1e-09, 1e+06], ascending; got"),
         ({"polarity": 0.5}, "polarity must be 1 or -1; got 0.5"),
         ({"intensity": "pgx"}, "intensity must be one of 'scale', 'pga'"),
         ({"block": None}, "block must be a Block; got None"),
@@ -274,7 +274,7 @@ def test_intervals_end_at_the_last_double_that_overturns():
     ],
 )
 def test_errors_state_what_is_allowed(given, message):
-    usual = {"records": push(1.0), "block": BLOCK, "scales": [1.0, 2.0]}
+    usual = {"records": push(1.0), "block": BLOCK, "levels": [1.0, 2.0]}
     with pytest.raises((TypeError, ValueError), match="must") as error:
         rk.overturning_set(**usual | given)
     assert str(error.value).startswith(message)

@@ -9,9 +9,17 @@ import pytest
 
 import rocking as rk
 from rocking.model.forcing import KINDS
+from surveyed import system_with
 
 OVERTURNED, STANDS = 2, 1
 RNG = np.random.default_rng(20)
+
+
+def pulsed(kind, restitution):
+    return rk.System(rk.Pulse(kind, amplitude=1.0, duration=1.0), restitution)
+
+
+BRACED = rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9, rk.Braces(1.0))
 
 
 def duration_of(kind, frequency):
@@ -27,7 +35,9 @@ def at(found, **place):
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_points_are_those_of_single_runs(kind):
     amplitude, frequency = np.sort(RNG.uniform(0.8, 9.0, 12)), np.sort(RNG.uniform(0.3, 8.0, 12))
-    found = rk.overturning_spectrum(kind, amplitude=amplitude, frequency=frequency, restitution=[0.85, 0.92])
+    found = rk.overturning_spectrum(
+        pulsed(kind, 1.0), amplitude=amplitude, frequency=frequency, restitution=[0.85, 0.92]
+    ).dataset
     assert found.outcome.dims == ("amplitude", "frequency", "restitution")
     differ, undecided, overturned = [], 0, 0
     for a, w, e in np.ndindex(found.outcome.shape):
@@ -56,7 +66,7 @@ def test_order_of_the_modes_is_the_printed_one():
     They integrated numerically, so that 3.01, which they found to overturn, lies below the exact threshold 3.0186.
     """
     printed = [3.00, 3.02, 6.31, 6.33, 7.16, 7.18]
-    found = rk.overturning_spectrum("one-sine", amplitude=printed, frequency=[4.0, 5.0], restitution=0.9)
+    found = rk.overturning_spectrum(pulsed("one-sine", 0.9), amplitude=printed, frequency=[4.0, 5.0]).dataset
     told = [at(found, amplitude=each, frequency=5.0) for each in printed]
     assert [outcome for outcome, _ in told] == [STANDS, OVERTURNED, OVERTURNED, STANDS, STANDS, OVERTURNED]
     assert [mode for outcome, mode in told if outcome == OVERTURNED] == [1, 1, 0]
@@ -66,8 +76,8 @@ def test_order_of_the_modes_is_the_printed_one():
 def test_overturning_after_one_impact_ends_at_the_printed_frequency():
     """Zhang & Makris (2001) print 6.59."""
     found = rk.overturning_spectrum(
-        "one-sine", amplitude=np.linspace(5, 10, 2001), frequency=[6.58, 6.60], restitution=0.9
-    )
+        pulsed("one-sine", 0.9), amplitude=np.linspace(5, 10, 2001), frequency=[6.58, 6.60]
+    ).dataset
     after_one = (found.outcome == OVERTURNED) & (found.impacts_since_rest == 1)
     assert after_one.any("amplitude").values.tolist() == [True, False]
 
@@ -83,11 +93,8 @@ def test_one_sine_overturns_without_impact_above_its_condition(frequency):
         )
         edge = float(1 / mp.sin(psi))
     found = rk.overturning_spectrum(
-        "one-sine",
-        amplitude=[edge - 1e-9, edge + 1e-9],
-        frequency=[frequency, 2 * frequency],
-        restitution=0.9,
-    )
+        pulsed("one-sine", 0.9), amplitude=[edge - 1e-9, edge + 1e-9], frequency=[frequency, 2 * frequency]
+    ).dataset
     one = found.isel(frequency=0)
     without_impact = (one.outcome == OVERTURNED) & (one.impacts_since_rest == 0)
     assert without_impact.values.tolist() == [False, True]
@@ -96,7 +103,9 @@ def test_one_sine_overturns_without_impact_above_its_condition(frequency):
 def test_rectangular_pulse_overturns_where_its_closed_form_says():
     """A > 1/(1 − exp(−T)); only a block without an impact overturns, because the base then stays at rest."""
     amplitude, frequency = np.linspace(0.9, 6.0, 80), np.linspace(0.5, 12.0, 70)
-    found = rk.overturning_spectrum("rectangular", amplitude=amplitude, frequency=frequency, restitution=0.9)
+    found = rk.overturning_spectrum(
+        pulsed("rectangular", 0.9), amplitude=amplitude, frequency=frequency
+    ).dataset
     edge = -1 / np.expm1(-math.tau / frequency)
     wanted = amplitude[:, None] > edge[None, :]
     assert ((found.outcome == OVERTURNED).values == wanted).all()
@@ -106,31 +115,33 @@ def test_rectangular_pulse_overturns_where_its_closed_form_says():
 
 
 def test_store_and_executor_give_the_same_dataset(tmp_path):
-    plane = {"amplitude": np.linspace(1, 8, 30), "frequency": np.linspace(1, 7, 30), "restitution": 0.9}
-    plain = rk.overturning_spectrum("triangular", **plane)
+    plane = {"amplitude": np.linspace(1, 8, 30), "frequency": np.linspace(1, 7, 30)}
+    triangular, rectangular = (pulsed(kind, 0.9) for kind in ("triangular", "rectangular"))
+    plain = rk.overturning_spectrum(triangular, **plane).dataset
     assert plain.attrs["pulse"] == "triangular"
     assert plain.attrs["restitution"] == 0.9
     with ProcessPoolExecutor(2) as pool:
-        assert rk.overturning_spectrum("triangular", **plane, executor=pool).identical(plain)
-    kept = rk.overturning_spectrum("triangular", **plane, store=tmp_path / "store")
+        assert rk.overturning_spectrum(triangular, **plane, executor=pool).dataset.identical(plain)
+    kept = rk.overturning_spectrum(triangular, **plane, store=tmp_path / "store").dataset
     assert all((kept[name].values == plain[name].values).all() for name in ("outcome", "peak", "impacts"))
     with pytest.raises(ValueError, match="pulse|store"):
-        rk.overturning_spectrum("rectangular", **plane, store=tmp_path / "store")
+        rk.overturning_spectrum(rectangular, **plane, store=tmp_path / "store")
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"kind": "sine"}, "kind must be one of 'rectangular'"),
-        ({"amplitude": 2.0}, "amplitude must be an ascending array, an axis of the spectrum; got 2.0"),
-        ({"frequency": 2.0}, "frequency must be an ascending array, an axis of the spectrum; got 2.0"),
+        ({"system": "one-sine"}, "system must be a System; got 'one-sine'"),
+        ({"system": system_with()}, "system must have a pulse as base motion, rk.Pulse; got Harmonic"),
+        ({"system": BRACED}, "system must have no braces for this survey"),
+        ({"amplitude": 2.0}, "amplitude must be an axis, an ascending array in [0, 1000]; got 2.0"),
+        ({"frequency": None}, "frequency must be an axis, an ascending array in [0.001, 1000]; got None"),
         ({"frequency": [2.0, 1.0]}, "frequency must hold two numbers or more in [0.001, 1000], ascending"),
-        ({"restitution": 1.2}, "restitution must lie in [0, 1]; got 1.2"),
-        ({"restitution": None}, "restitution must be a real number in [0, 1]; got None"),
+        ({"restitution": 1.2}, "restitution must be an axis, an ascending array in [0, 1]; got 1.2"),
     ],
 )
 def test_errors_state_what_is_allowed(given, message):
-    usual = {"kind": "one-sine", "amplitude": [1.0, 2.0], "frequency": [1.0, 2.0], "restitution": 0.9}
+    usual = {"system": pulsed("one-sine", 0.9), "amplitude": [1.0, 2.0], "frequency": [1.0, 2.0]}
     with pytest.raises((TypeError, ValueError), match="must") as error:
         rk.overturning_spectrum(**usual | given)
     assert str(error.value).startswith(message)

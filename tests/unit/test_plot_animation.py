@@ -256,7 +256,7 @@ def test_wrong_wishes_are_refused_in_one_line(tmp_path, name, how, message):
 @pytest.mark.parametrize(
     ("motion", "name", "block", "message"),
     [
-        (3, "a.gif", None, "^motion must be a Motion; got 3$"),
+        (3, "a.gif", None, "^result must be a Motion; got 3$"),
         (None, 3, None, r"^path must be the name of a file that ends in \.gif, \.mp4; got 3$"),
         (None, "a.gif", 3, "^block must be a Block; got 3 "),
         (None, "a.gif", 0, "^block must be a Block; got 0 "),

@@ -9,6 +9,7 @@ from matplotlib.colors import to_rgb
 import rocking as rk
 from rocking.plot.curves import LOOKS as CURVES
 from rocking.plot.style import LOOKS
+from surveyed import system_with
 
 BLOCK = rk.Block(2.0, 0.5)
 
@@ -34,7 +35,9 @@ def family():
 
 @pytest.fixture(scope="module")
 def response():
-    return rk.frequency_response(period=np.linspace(0.2, 3.0, 29), amplitude=6.0, restitution=0.8)
+    return rk.frequency_response(
+        system_with(amplitude=6.0, restitution=0.8), period=np.linspace(0.2, 3.0, 29)
+    )
 
 
 def test_every_special_point_has_its_marker_on_the_line(family):
@@ -170,7 +173,9 @@ def test_every_mode_has_a_colour_and_every_branch_a_line(response):
 
 
 def test_where_there_is_nothing_to_follow_it_shows_what_a_start_from_rest_does():
-    ax = rk.plot.frequency_response(rk.frequency_response(period=[0.5, 1.0], amplitude=0.05, restitution=0.5))
+    ax = rk.plot.frequency_response(
+        rk.frequency_response(system_with(amplitude=0.05, restitution=0.5), period=[0.5, 1.0])
+    )
     assert legend(ax) == ["from rest: rest"]
 
 

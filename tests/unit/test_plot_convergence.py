@@ -99,7 +99,7 @@ def test_exponent_of_minus_infinity_has_its_value_and_its_cause_but_no_line(expo
 
 
 def test_what_cannot_be_drawn_is_refused_in_one_line(spectrum):
-    with pytest.raises(TypeError, match="^spectrum must be a LyapunovSpectrum; got 3$"):
+    with pytest.raises(TypeError, match="^result must be a LyapunovSpectrum; got 3$"):
         rk.plot.convergence(3)
     for bad in (0, 3, math.nan):
         with pytest.raises(ValueError, match=r"^exponent must be a whole number in \[1, 2\]; got .*$"):

@@ -68,8 +68,8 @@ def test_fractions_fits_and_intervals_are_drawn(fragility):
     assert len(fitted) >= 2
     for line, limit in zip(drawn(ax, "fit"), fitted, strict=True):
         assert line.get_xdata().size >= 200
-        at = np.searchsorted(line.get_xdata(), data.scale.values)
-        assert line.get_xdata()[at].tolist() == data.scale.values.tolist()
+        at = np.searchsorted(line.get_xdata(), data.level.values)
+        assert line.get_xdata()[at].tolist() == data.level.values.tolist()
         assert line.get_ydata()[at] == pytest.approx(100 * data.fit.values[limit])
         assert (np.diff(line.get_ydata()) >= 0.0).all()
     for band, limit in zip(drawn(ax, "band"), fitted, strict=True):
@@ -109,12 +109,12 @@ def test_a_fragility_without_a_fit_is_drawn_without_a_curve(records):
 
 
 def test_bad_input_is_refused(records, analysis, fragility):
-    with pytest.raises(TypeError, match="found must be a Fragility"):
+    with pytest.raises(TypeError, match="result must be a Fragility"):
         rk.plot.fragility(analysis)
-    with pytest.raises(TypeError, match="found must be an IncrementalDynamicAnalysis"):
+    with pytest.raises(TypeError, match="result must be an IncrementalDynamicAnalysis"):
         rk.plot.incremental_dynamic_analysis(fragility)
     with pytest.raises(ValueError, match="fractiles must hold 1 to 3 fractions"):
         rk.plot.incremental_dynamic_analysis(analysis, fractiles=[0.1, 0.2, 0.3, 0.4])
     many = rk.fragility(records, BLOCK, [1.0, 5.0], limits=[0.1, 0.2, 0.3, 0.4])
-    with pytest.raises(ValueError, match="found must have at most 3 limits to be drawn; got 4"):
+    with pytest.raises(ValueError, match="result must have at most 3 limits to be drawn; got 4"):
         rk.plot.fragility(many)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from attrs import evolve
 from matplotlib.colors import to_hex, to_rgb
 
 import rocking as rk
@@ -95,10 +96,10 @@ def test_colours_stand_out_from_both_pages_of_the_explorer(theme):
 def drawn_legends():
     """The name and the colour of every outcome in the legends of one figure of each kind, and of both pages of the explorer."""
     axes = {"amplitude": np.linspace(0.5, 14.0, 30), "period": np.linspace(0.3, 3.0, 30)}
-    found = rk.parametric_map(**axes, restitution=0.925)
+    system, square = rk.System(rk.Harmonic(5.5, period=0.5), 0.925), np.linspace(-1, 1, 40)
+    found = rk.parametric_map(system, **axes).dataset
     pulse = {"amplitude": np.linspace(0.5, 10, 30), "frequency": np.linspace(0.5, 8, 30)}
     records, block = rk.synthetic_ground_motions(3, seed=1), rk.Block(2.0, 0.5)
-    system, square = rk.System(rk.Harmonic(5.5, period=0.5), 0.925), np.linspace(-1, 1, 40)
     doubling = rk.System(rk.Harmonic(10.0, period=1.721328), 0.8)
     values = np.linspace(9.0, 11.5, 30)
     sizes = {"size": np.geomspace(0.3, 6, 20), "slenderness": np.radians(np.linspace(5, 40, 20))}
@@ -107,17 +108,21 @@ def drawn_legends():
         "map": rk.plot.parametric_map(found),
         "marks": rk.plot.parametric_map(found, symbols="kinds"),
         "basins": rk.plot.basins(rk.basin_map(system, angle=square, velocity=square, boundary_runs=0)),
-        "pulse": rk.plot.overturning_spectrum(rk.overturning_spectrum("one-sine", **pulse, restitution=0.9)),
+        "pulse": rk.plot.overturning_spectrum(
+            rk.overturning_spectrum(
+                rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9), **pulse
+            )
+        ),
         "set": rk.plot.overturning_set(rk.overturning_set(records, block, np.linspace(2, 20, 40))),
-        "sizes": rk.plot.rocking_spectrum(rk.rocking_spectrum(records[:1], **sizes, scale=1.5)),
-        "repeatability": rk.plot.repeatability_map(
-            rk.repeatability_map(**kinds, restitution=0.925, samples=4)
-        ),
+        "sizes": rk.plot.rocking_spectrum(rk.rocking_spectrum(records[:1], **sizes, levels=1.5)),
+        "repeatability": rk.plot.repeatability_map(rk.repeatability_map(system, **kinds, samples=4)),
         "response": rk.plot.frequency_response(
-            rk.frequency_response(amplitude=3.0, period=np.linspace(0.5, 3, 20), restitution=0.925)
+            rk.frequency_response(
+                evolve(system, forcing=rk.Harmonic(3.0, period=1.0)), period=np.linspace(0.5, 3, 20)
+            )
         ),
-        "diagram": rk.plot.orbit_diagram(rk.orbit_diagram(doubling, "amplitude", values, sweep="both")),
-        "exponents": rk.plot.response_diagram(rk.response_diagram(doubling, "amplitude", values)).axes[-1],
+        "diagram": rk.plot.orbit_diagram(rk.orbit_diagram(doubling, amplitude=values, sweep="both")),
+        "exponents": rk.plot.response_diagram(rk.response_diagram(doubling, amplitude=values)).axes[-1],
     }
     for figure, ax in figures.items():
         legend = ax.get_legend()

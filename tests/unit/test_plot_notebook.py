@@ -31,7 +31,7 @@ def verdict():
 
 @cache
 def diagram():
-    return rk.response_diagram(SYSTEM, "amplitude", [1.0, 2.0, 3.0])
+    return rk.response_diagram(SYSTEM, amplitude=[1.0, 2.0, 3.0])
 
 
 PLOTS = {
@@ -51,12 +51,20 @@ REFUSED = {
     ),
     "history": lambda: rk.plot.time_history(motion(), block=BLOCK),
     "overturning": lambda: rk.plot.overturning(
-        rk.overturning_amplitude(period=[1.5, 2.0], restitution=0.925, amplitude=[1.0, 4.0], phases=2),
+        rk.overturning_amplitude(
+            rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+            period=[1.5, 2.0],
+            amplitude=[1.0, 4.0],
+            phases=2,
+        ),
         block=BLOCK,
     ),
     "overview": lambda: rk.plot.overview(motion(), BLOCK),
     "safe basin": lambda: rk.plot.safe_basin(
-        rk.safe_basin(amplitude=[3.3, 3.7], period=1.0, restitution=0.8, samples=20), block=BLOCK
+        rk.safe_basin(
+            rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8), amplitude=[3.3, 3.7], samples=20
+        ),
+        block=BLOCK,
     ),
     "schematic": lambda: rk.plot.schematic(block=BLOCK),
     "thresholds": lambda: rk.plot.thresholds([1.0, 2.0], {"bound": [1.0]}),

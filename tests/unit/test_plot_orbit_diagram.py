@@ -11,8 +11,8 @@ import rocking as rk
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
 VALUES = np.linspace(10.4, 11.5, 23)
-BOTH = rk.orbit_diagram(SYSTEM, "amplitude", VALUES, cycles=8)
-UP = rk.orbit_diagram(SYSTEM, "amplitude", VALUES, sweep="up", cycles=8)
+BOTH = rk.orbit_diagram(SYSTEM, amplitude=VALUES, cycles=8)
+UP = rk.orbit_diagram(SYSTEM, amplitude=VALUES, sweep="up", cycles=8)
 
 
 def drawn(ax, gid):
@@ -74,12 +74,12 @@ def test_bars_lie_under_the_values_that_overturned():
 
 
 def test_nothing_overturned_has_no_bar():
-    ax = rk.plot.orbit_diagram(rk.orbit_diagram(SYSTEM, "amplitude", [9.0, 9.5], cycles=3))
+    ax = rk.plot.orbit_diagram(rk.orbit_diagram(SYSTEM, amplitude=[9.0, 9.5], cycles=3))
     assert [line.get_gid() for line in ax.lines] == ["up", "down"]
 
 
 def test_all_overturned_is_still_a_picture():
-    ax = rk.plot.orbit_diagram(rk.orbit_diagram(SYSTEM, "amplitude", [40.0, 50.0], sweep="rest", cycles=3))
+    ax = rk.plot.orbit_diagram(rk.orbit_diagram(SYSTEM, amplitude=[40.0, 50.0], sweep="rest", cycles=3))
     assert len(drawn(ax, "rest")) == 0
     assert len(drawn(ax, "overturned rest")) == 3
 
@@ -124,7 +124,7 @@ def test_branches_that_lead_farther_do_not_widen_the_picture(branch):
 
 
 def test_branches_are_taken_at_the_section_of_the_diagram(branch):
-    later = rk.orbit_diagram(SYSTEM, "amplitude", VALUES, sweep="up", cycles=2, section_phase=0.5)
+    later = rk.orbit_diagram(SYSTEM, amplitude=VALUES, sweep="up", cycles=2, section_phase=0.5)
     ax = rk.plot.orbit_diagram(later, branches=[branch], quantity="velocity")
     line = next(line for line in ax.lines if line.get_gid() == "stable branch")
     expected = branch.section(0.5)[branch.points["stable"], 0, 1]
@@ -151,7 +151,7 @@ def test_a_block_gives_si_axes():
         ("period", "period (s)", block.seconds(1.0)),
         ("frequency", "frequency (Hz)", 1 / (2 * math.pi * block.seconds(1.0))),
     ):
-        diagram = rk.orbit_diagram(system, name, [1.1, 1.2], sweep="rest", transient=0, cycles=1)
+        diagram = rk.orbit_diagram(system, **{name: [1.1, 1.2]}, sweep="rest", transient=0, cycles=1)
         ax = rk.plot.orbit_diagram(diagram, block=block, quantity="peak")
         assert ax.get_xlabel() == label
         shown = drawn(ax, "rest")
@@ -161,9 +161,9 @@ def test_a_block_gives_si_axes():
 
 
 def test_ten_points_are_seen_and_a_million_stay_small_in_a_vector_file():
-    few = rk.orbit_diagram(SYSTEM, "amplitude", np.linspace(9, 10, 10), sweep="up", cycles=1)
+    few = rk.orbit_diagram(SYSTEM, amplitude=np.linspace(9, 10, 10), sweep="up", cycles=1)
     assert rk.plot.orbit_diagram(few).lines[0].get_markersize() == pytest.approx(3.0)
-    many = rk.orbit_diagram(SYSTEM, "amplitude", np.linspace(10.735, 10.745, 1000), sweep="up", cycles=1000)
+    many = rk.orbit_diagram(SYSTEM, amplitude=np.linspace(10.735, 10.745, 1000), sweep="up", cycles=1000)
     ax = rk.plot.orbit_diagram(many)
     stream = io.BytesIO()
     ax.figure.savefig(stream, format="svg")

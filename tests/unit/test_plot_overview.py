@@ -64,7 +64,7 @@ def test_block_that_never_rocks_is_shown_whole():
 
 
 def test_other_than_a_motion_is_refused_in_one_line():
-    with pytest.raises(TypeError, match="^motion must be a Motion; got 3$"):
+    with pytest.raises(TypeError, match="^result must be a Motion; got 3$"):
         rk.plot.overview(3)
 
 

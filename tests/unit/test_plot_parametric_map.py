@@ -12,7 +12,7 @@ from PIL import Image
 
 import rocking as rk
 from rocking.plot.style import LOOKS
-from rocking.survey import notebook
+from surveyed import system_with
 
 NUMBERS = {kind: number for number, kind in enumerate(rk.Kind)}
 KINDS = {look.name: look for look in LOOKS}
@@ -109,7 +109,9 @@ def test_what_is_not_computed_is_white_and_told():
 
 def test_budget_below_what_chaos_needs_shows_undetermined_and_never_chaotic():
     where = {"amplitude": np.linspace(14.0, 15.0, 3), "period": np.linspace(1.9, 2.1, 3)}
-    found = rk.parametric_map(**where, restitution=0.925, brace_angle=1.0, max_cycles=300)
+    found = rk.parametric_map(
+        system_with(restitution=0.925, brace_angle=1.0), **where, max_cycles=300
+    ).dataset
     told = legend(rk.plot.parametric_map(found))
     assert any(text.startswith("undetermined") for text in told)
     assert not any(text.startswith("chaotic") for text in told)
@@ -156,7 +158,9 @@ def test_levels_fill_what_the_finest_has_not_yet():
 def test_store_that_was_stopped_is_drawn_as_far_as_it_is(tmp_path):
     """Its finest level is taken away: what is left is the coarser one."""
     where = {"amplitude": np.linspace(0.0, 9.0, 129), "period": np.linspace(0.3, 2.0, 4)}
-    whole = rk.parametric_map(**where, restitution=0.9, max_cycles=50, store=tmp_path / "map.zarr")
+    whole = rk.parametric_map(
+        system_with(restitution=0.9), **where, max_cycles=50, store=tmp_path / "map.zarr"
+    ).dataset
     kinds = whole.kind.values.copy()
     for name in whole.data_vars:
         for chunk in (tmp_path / "map.zarr" / "level-2" / name).rglob("c/*/*"):
@@ -276,21 +280,10 @@ def test_marks_of_the_kinds_are_all_different_and_every_point_has_one():
     assert sum(len(line.get_xdata()) for line in ax.lines) == COUNT * len(SEEN)
 
 
-def test_map_shows_itself_in_a_notebook():
-    found = rk.parametric_map(amplitude=[0.5, 2.0], period=np.linspace(0.8, 1.2, 5), restitution=0.9)
-    shown = notebook.html(found)
-    assert shown.startswith(
-        '<figure><img alt="map of 2 × 5 points: rest 50.0 %, periodic 50.0 %" src="data:image/png;base64,'
-    )
-    assert found._repr_html_().split("<")[1] in shown
-    other = xr.Dataset({"kind": ("x", [1, 2])})
-    assert not notebook.html(other).startswith("<figure>")
-
-
 @pytest.mark.parametrize("found", [3, xr.Dataset(), a_map([("rest", 0, 2)] * 2).isel(period=0), []])
 def test_what_is_no_map_is_refused(found):
     with pytest.raises(
-        (TypeError, ValueError), match="found must be a map over two axes, as parametric_map gives it"
+        (TypeError, ValueError), match="result must be a map over two axes, as parametric_map gives it"
     ):
         rk.plot.parametric_map(found)
 
@@ -307,19 +300,17 @@ def test_what_cannot_be_drawn_is_refused_in_one_line(tmp_path):
         ValueError, match="curves must lie over a map of the amplitude and .*; got 'amplitude and phase'"
     ):
         rk.plot.parametric_map(found.rename(period="phase"), curves=["melnikov"])
-    with pytest.raises(ValueError, match="found must be the folder of a map's store"):
+    with pytest.raises(ValueError, match="result must be the folder of a map's store"):
         rk.plot.parametric_map(tmp_path)
 
 
 def test_the_longest_name_fits_the_vertical_axis():
     found = rk.parametric_map(
+        rk.System(rk.Harmonic(4.0, period=1.0), restitution=0.8, braces=rk.Braces(0.3)),
         brace_restitution=[0.5, 0.7],
         period=[1.0, 1.1],
-        amplitude=4.0,
-        restitution=0.8,
-        brace_angle=0.3,
         max_cycles=200,
-    )
+    ).dataset
     ax = rk.plot.parametric_map(found)
     ax.figure.draw_without_rendering()
     extent = ax.yaxis.label.get_window_extent()

@@ -16,7 +16,12 @@ def labels(ax):
 def pictures(block):
     """Axes over the period, over the amplitude or over both."""
     system = rk.System(rk.Harmonic(amplitude=5.0, period=1.0), restitution=0.8)
-    found = rk.parametric_map(amplitude=[4.0, 5.0], period=[1.0, 1.1], restitution=0.8, max_cycles=200)
+    found = rk.parametric_map(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8),
+        amplitude=[4.0, 5.0],
+        period=[1.0, 1.1],
+        max_cycles=200,
+    ).dataset
     return {
         "thresholds": rk.plot.thresholds(PERIODS, {"any": PERIODS}, block=block),
         "map": rk.plot.parametric_map(found, block=block),
@@ -25,11 +30,9 @@ def pictures(block):
             rk.continue_orbit(rk.classify(system).orbit, "amplitude", (4.9, 5.1)), block=block
         ),
         "diagram": rk.plot.orbit_diagram(
-            rk.orbit_diagram(system, "amplitude", [4.9, 5.0], transient=50, cycles=2), block=block
+            rk.orbit_diagram(system, amplitude=[4.9, 5.0], transient=50, cycles=2), block=block
         ),
-        "response": rk.plot.frequency_response(
-            rk.frequency_response(period=[0.9, 1.0], amplitude=5.0, restitution=0.8), block=block
-        ),
+        "response": rk.plot.frequency_response(rk.frequency_response(system, period=[0.9, 1.0]), block=block),
     }
 
 

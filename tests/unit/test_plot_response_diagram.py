@@ -10,7 +10,7 @@ from rocking.plot.style import COLOURS
 
 CASCADE = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
 VALUES = [10.103037, 10.45, 10.5, 10.6, 10.9, 11.0]
-FOUND = rk.response_diagram(CASCADE, "amplitude", VALUES)
+FOUND = rk.response_diagram(CASCADE, amplitude=VALUES)
 
 
 def colour_of(artist):
@@ -67,7 +67,7 @@ def test_marks_lie_at_the_exponents_and_rotation_numbers_with_bars_of_the_errors
 def test_value_without_an_error_is_hollow():
     undamped = rk.System(rk.Harmonic(amplitude=4.0, period=0.4), restitution=1.0)
     _, exponents, rotation = rk.plot.response_diagram(
-        rk.response_diagram(undamped, "amplitude", [3.9, 4.0])
+        rk.response_diagram(undamped, amplitude=[3.9, 4.0])
     ).axes
     faces = [
         next(line for line in ax.lines if line.get_gid() == "quasi-periodic").get_markerfacecolor()
@@ -78,7 +78,7 @@ def test_value_without_an_error_is_hollow():
 
 def test_exponent_of_minus_infinity_is_a_triangle_at_the_bottom():
     system = rk.System(rk.Harmonic(1.0, period=2.0), restitution=0.5)
-    ax = rk.plot.response_diagram(rk.response_diagram(system, "amplitude", [0.9, 1.05, 1.3])).axes[1]
+    ax = rk.plot.response_diagram(rk.response_diagram(system, amplitude=[0.9, 1.05, 1.3])).axes[1]
     (line,) = (line for line in ax.lines if line.get_gid() == "superstable")
     assert list(line.get_xdata()) == [0.9, 1.05]
     assert np.isfinite(ax.get_ylim()).all()
@@ -86,7 +86,7 @@ def test_exponent_of_minus_infinity_is_a_triangle_at_the_bottom():
 
 def test_a_diagram_of_overturned_or_single_responses_has_a_picture():
     for values in ([30.0, 31.0], [10.45]):
-        figure = rk.plot.response_diagram(rk.response_diagram(CASCADE, "amplitude", values))
+        figure = rk.plot.response_diagram(rk.response_diagram(CASCADE, amplitude=values))
         figure.canvas.draw()
         assert len(bands(figure)) == 1
 
@@ -99,7 +99,7 @@ def test_a_block_gives_si_axes():
         ("frequency", [5.0, 6.0], "frequency (Hz)", 1 / (2 * math.pi * block.seconds(1.0))),
     ):
         system = rk.System(rk.Harmonic(2.0, period=1.0), 0.9)
-        found = rk.response_diagram(system, name, values)
+        found = rk.response_diagram(system, **{name: values})
         _, exponents, rotation = rk.plot.response_diagram(found, block).axes
         assert (rotation.get_xlabel(), exponents.get_ylabel()) == (label, r"exponent $\lambda_1$ (1/s)")
         points = np.concatenate(list(marks(exponents).values()))
@@ -109,8 +109,8 @@ def test_a_block_gives_si_axes():
 
 def test_critical_angle_has_a_label_in_both_diagrams():
     system = rk.System(rk.Harmonic(2.0, period=1.0), restitution=0.9)
-    responses = rk.response_diagram(system, "critical_angle", [0.1, 0.2])
-    points = rk.orbit_diagram(system, "critical_angle", [0.1, 0.2], transient=5, cycles=2)
+    responses = rk.response_diagram(system, critical_angle=[0.1, 0.2])
+    points = rk.orbit_diagram(system, critical_angle=[0.1, 0.2], transient=5, cycles=2)
     label = r"critical angle $\theta_\mathrm{cr}$ (rad)"
     assert rk.plot.response_diagram(responses).axes[2].get_xlabel() == label
     assert rk.plot.orbit_diagram(points).get_xlabel() == label

@@ -16,7 +16,7 @@ SIZES = np.linspace(0.2, 3.0, 25)
 
 @pytest.fixture(scope="module")
 def found():
-    return rk.rocking_spectrum(RECORDS, size=SIZES, slenderness=[0.12, 0.2])
+    return rk.rocking_spectrum(RECORDS, size=SIZES, slenderness=[0.12, 0.2]).dataset
 
 
 def drawn(ax, gid):
@@ -80,7 +80,7 @@ def test_other_axes_stand_for_the_size_and_degrees_for_the_critical_angle(found,
 
 
 def test_degrees_of_a_slenderness_that_does_not_vary(found):
-    one = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2)
+    one = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2).dataset
     (line,) = drawn(rk.plot.rocking_spectrum(one, unit="degrees"), "peak")
     (same,) = drawn(rk.plot.rocking_spectrum(found.isel(record=0, slenderness=[1]), unit="degrees"), "peak")
     np.testing.assert_array_equal(line.get_ydata(), same.get_ydata())
@@ -109,7 +109,9 @@ def test_undecided_outcomes_are_circled_and_in_the_legend(found):
 @pytest.fixture(scope="module")
 def of_many():
     records = rk.synthetic_ground_motions(12, seed=2, duration=8.0)
-    return rk.rocking_spectrum(records, size=SIZES, slenderness=[0.15, 0.25], scale=0.5, intensity="pga-g")
+    return rk.rocking_spectrum(
+        records, size=SIZES, slenderness=[0.15, 0.25], levels=0.5, intensity="pga-g"
+    ).dataset
 
 
 def test_many_records_share_the_colour_of_their_slenderness(of_many):
@@ -135,13 +137,17 @@ def test_median_ends_where_more_than_half_of_the_records_overturn_the_block(of_m
 def test_heading_states_what_does_not_vary(found, of_many):
     ax = rk.plot.rocking_spectrum(of_many)
     assert (ax.get_title("left"), ax.get_title("right")) == ("12 records", "PGA = 0.5 g")
-    ax = rk.plot.rocking_spectrum(rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2, scale=2.0))
+    ax = rk.plot.rocking_spectrum(rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2, levels=2.0))
     heading = r"$\theta_\mathrm{cr}$ = 11.5°, factor = 2"
     assert (ax.get_title("left"), ax.get_title("right")) == ("synthetic 1", heading)
-    two = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2, scale=[0.3, 0.5], intensity="pga-g")
-    selected = rk.plot.rocking_spectrum(two.isel(scale=1)).get_title("right")
+    two = rk.rocking_spectrum(
+        RECORDS[0], size=SIZES, slenderness=0.2, levels=[0.3, 0.5], intensity="pga-g"
+    ).dataset
+    selected = rk.plot.rocking_spectrum(two.isel(level=1)).get_title("right")
     assert selected == r"$\theta_\mathrm{cr}$ = 11.5°, PGA = 0.5 g"
-    many = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=np.linspace(0.1, 0.3, 8), scale=2.0)
+    many = rk.rocking_spectrum(
+        RECORDS[0], size=SIZES, slenderness=np.linspace(0.1, 0.3, 8), levels=2.0
+    ).dataset
     ax = rk.plot.rocking_spectrum(many)
     assert (ax.get_title("left"), ax.get_title("right")) == ("synthetic 1", "factor = 2")
 
@@ -155,7 +161,7 @@ def test_axis_of_the_angle_ends_below_the_strip_of_overturned_blocks(found):
 
 def test_many_slendernesses_are_a_map_with_overturned_blocks_in_grey():
     angles = np.linspace(0.08, 0.3, 9)
-    found = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=angles)
+    found = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=angles).dataset
     ax = rk.plot.rocking_spectrum(found, across="period", unit="degrees")
     fallen, image = drawn(ax, "overturned")[0], drawn(ax, "peak")[0]
     fell = overturned(found).T
@@ -173,25 +179,25 @@ REFUSED = {
         lambda found: 3.0,
         {},
         TypeError,
-        "found must be a dataset as rocking_spectrum gives it; got 3.0",
+        "result must be a rocking spectrum, as rocking.rocking_spectrum gives it; got 3.0",
     ),
     "polarity": (
         lambda found: found.expand_dims(polarity=[1.0]),
         {},
         ValueError,
-        "found must vary over records, size and slenderness alone; got 'polarity' (select one value first, such",
+        "result must vary over records, size and slenderness alone; got 'polarity' (select one value first, such",
     ),
     "no axis": (
         lambda found: found.isel(size=0, slenderness=0),
         {},
         ValueError,
-        "found must vary over size or slenderness; got ('record',)",
+        "result must vary over size or slenderness; got ('record',)",
     ),
     "map of records": (
         lambda found: rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=np.linspace(0.1, 0.2, 7)),
         {},
         ValueError,
-        "found must hold one record to be a map; got '3 records' (select one first, such as found.isel(record=0))",
+        "result must hold one record to be a map; got '3 records' (select one first, such as result.dataset.isel(record=0))",
     ),
     "across": (
         lambda found: found,

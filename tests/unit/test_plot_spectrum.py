@@ -115,7 +115,7 @@ def test_axes_given_are_drawn_into(periodic):
 @pytest.mark.parametrize(
     ("how", "message"),
     [
-        ({"density": 3}, "^density must be a SpectralDensity; got 3$"),
+        ({"result": 3}, "^result must be a SpectralDensity; got 3$"),
         ({"highest": 0.0}, r"^highest must lie in \[0.1, 1000\]; got 0.0$"),
         ({"names": 1.5}, r"^names must be a whole number in \[0, 100\]; got 1.5$"),
         ({"block": 3}, "^block must be a Block; got 3 "),
@@ -124,4 +124,4 @@ def test_axes_given_are_drawn_into(periodic):
 )
 def test_argument_of_another_kind_is_refused_in_one_line(periodic, how, message):
     with pytest.raises((TypeError, ValueError), match=message):
-        rk.plot.spectrum(**{"density": periodic, **how})
+        rk.plot.spectrum(**{"result": periodic, **how})

@@ -21,7 +21,10 @@ def basins():
 @pytest.fixture(scope="module")
 def curve():
     return rk.overturning_amplitude(
-        period=[1.2, 1.7, 2.2], restitution=0.925, amplitude=np.linspace(1, 6, 21), phases=2
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+        period=[1.2, 1.7, 2.2],
+        amplitude=np.linspace(1, 6, 21),
+        phases=2,
     )
 
 
@@ -52,7 +55,11 @@ def test_all_is_a_hundred_percent():
     near = {"angle": np.linspace(0.1, 0.11, 4), "velocity": np.linspace(0.0, 0.01, 4), "boundary_runs": 0}
     one = rk.plot.basins(rk.basin_map(rk.System(rk.Harmonic(2.0, period=1.0), 0.9), **near))
     sure = rk.repeatability_map(
-        amplitude=[0.5, 0.6], period=[0.8, 0.9], restitution=0.925, samples=2, max_cycles=100
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+        amplitude=[0.5, 0.6],
+        period=[0.8, 0.9],
+        samples=2,
+        max_cycles=100,
     )
     for ax in (one, rk.plot.repeatability_map(sure)):
         (text,) = ax.get_legend().get_texts()
@@ -65,7 +72,9 @@ def test_random_starts_are_points():
 
 
 def test_a_safe_area_is_drawn_beside_its_thresholds():
-    found = rk.safe_basin(amplitude=[3.0, 4.0, 5.0], period=1.0, restitution=0.8, samples=200)
+    found = rk.safe_basin(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8), amplitude=[3.0, 4.0, 5.0], samples=200
+    )
     ax = rk.plot.safe_basin(found)
     assert drawn(ax, "safe").get_ydata() == pytest.approx(100 * found.dataset.safe.values)
     upright = sorted(line.get_xdata()[0] for line in ax.lines if line.get_gid() != "safe")
@@ -73,7 +82,9 @@ def test_a_safe_area_is_drawn_beside_its_thresholds():
 
 
 def test_safe_area_and_thresholds_of_a_block_are_drawn_over_its_acceleration():
-    found = rk.safe_basin(amplitude=[3.0, 4.0, 5.0], period=1.0, restitution=0.8, samples=20)
+    found = rk.safe_basin(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8), amplitude=[3.0, 4.0, 5.0], samples=20
+    )
     block = rk.Block(2.0, 0.5)
     ax = rk.plot.safe_basin(found, block=block)
     assert drawn(ax, "safe").get_xdata() == pytest.approx(block.acceleration([3.0, 4.0, 5.0]))
@@ -92,7 +103,9 @@ def test_an_overturning_curve_lies_over_the_shares(curve):
 
 
 def test_shares_of_one_period_are_seen_where_nothing_overturns():
-    found = rk.overturning_amplitude(period=0.3, restitution=0.925, amplitude=[1.0, 2.0], phases=2)
+    found = rk.overturning_amplitude(
+        rk.System(rk.Harmonic(1.0, period=0.3), restitution=0.925), amplitude=[1.0, 2.0], phases=2
+    )
     ax = rk.plot.overturning(found)
     assert drawn(ax, "share").get_ydata().tolist() == [0.0, 0.0]
     low, high = ax.get_ylim()
@@ -102,14 +115,20 @@ def test_shares_of_one_period_are_seen_where_nothing_overturns():
 
 def test_two_axes_are_too_many_for_an_overturning_curve():
     found = rk.overturning_amplitude(
-        period=[1.2, 2.2], restitution=[0.8, 0.9], amplitude=[1.0, 3.0], phases=1
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=1.0),
+        period=[1.2, 2.2],
+        restitution=[0.8, 0.9],
+        amplitude=[1.0, 3.0],
+        phases=1,
     )
-    with pytest.raises(ValueError, match="found must vary over one quantity to be drawn"):
+    with pytest.raises(ValueError, match="result must vary over one quantity to be drawn"):
         rk.plot.overturning(found)
 
 
 def test_intervals_of_chaos_are_drawn():
-    found = rk.chaos_share(restitution=[0.2, 0.5], samples=30)
+    found = rk.chaos_share(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=1.0), restitution=[0.2, 0.5], samples=30
+    )
     ((low, high),) = [
         [segment[:, 1] for segment in bars.get_segments()] for bars in rk.plot.chaos_share(found).collections
     ]
@@ -120,7 +139,10 @@ def test_intervals_of_chaos_are_drawn():
 
 def test_points_that_are_not_certain_have_a_colour_of_their_own():
     found = rk.repeatability_map(
-        amplitude=np.linspace(3, 7, 12), period=np.linspace(0.8, 2.0, 12), restitution=0.925, samples=8
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+        amplitude=np.linspace(3, 7, 12),
+        period=np.linspace(0.8, 2.0, 12),
+        samples=8,
     )
     values = drawn(rk.plot.repeatability_map(found), "map").get_array()
     assert np.count_nonzero(np.asarray(values) == len(rk.Kind)) == found.uncertain.count > 0
@@ -130,7 +152,7 @@ def test_points_that_are_not_certain_have_a_colour_of_their_own():
     "draw", ["basins", "safe_basin", "overturning", "chaos_share", "repeatability", "repeatability_map"]
 )
 def test_another_result_is_refused(draw):
-    with pytest.raises(TypeError, match="found must be a"):
+    with pytest.raises(TypeError, match="result must be a"):
         getattr(rk.plot, draw)(SYSTEM)
 
 
@@ -155,7 +177,7 @@ def levels_that_overturn():
 def test_bands_are_the_intervals_of_each_record(levels_that_overturn):
     found = levels_that_overturn
     ax = rk.plot.overturning_set(found)
-    seen = np.ptp(found.scales) / 400
+    seen = np.ptp(found.levels) / 400
     for record in range(3):
         boxes = [path.get_extents() for path in drawn(ax, f"bands {record}").get_paths()]
         intervals = found.intervals(record)
@@ -213,8 +235,10 @@ def test_axis_of_levels_has_the_name_and_unit_of_the_measure(intensity, label):
 @pytest.fixture(scope="module")
 def one_sine():
     return rk.overturning_spectrum(
-        "one-sine", amplitude=np.linspace(0.5, 9, 40), frequency=np.linspace(1, 8, 30), restitution=0.9
-    )
+        rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9),
+        amplitude=np.linspace(0.5, 9, 40),
+        frequency=np.linspace(1, 8, 30),
+    ).dataset
 
 
 def test_colours_are_the_modes_of_overturning(one_sine):
@@ -240,12 +264,19 @@ def test_a_block_gives_si_axes(one_sine):
 
 
 def test_other_datasets_and_several_restitutions_are_refused(one_sine):
-    with pytest.raises(TypeError, match="found must be a dataset of rocking.overturning_spectrum"):
+    with pytest.raises(
+        TypeError, match="result must be an overturning spectrum, as rocking.overturning_spectrum gives it"
+    ):
         rk.plot.overturning_spectrum(one_sine.drop_vars("margin"))
-    several = rk.overturning_spectrum("one-sine", amplitude=[1, 2], frequency=[1, 2], restitution=[0.8, 0.9])
-    with pytest.raises(ValueError, match="found must have one coefficient of restitution"):
+    several = rk.overturning_spectrum(
+        rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 1.0),
+        amplitude=[1, 2],
+        frequency=[1, 2],
+        restitution=[0.8, 0.9],
+    ).dataset
+    with pytest.raises(ValueError, match="result must have one coefficient of restitution"):
         rk.plot.overturning_spectrum(several)
     ax = rk.plot.overturning_spectrum(several.isel(restitution=1))
     assert ax.get_title(loc="right") == "one-sine, e = 0.9"
-    with pytest.raises(TypeError, match="found must be an OverturningSet"):
+    with pytest.raises(TypeError, match="result must be an OverturningSet"):
         rk.plot.overturning_set(one_sine)

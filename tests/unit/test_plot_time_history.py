@@ -179,7 +179,7 @@ def test_motion_without_events_is_refused_with_the_way_out():
 @pytest.mark.parametrize(
     ("how", "message"),
     [
-        ({"motion": 3}, "^motion must be a Motion; got 3$"),
+        ({"result": 3}, "^result must be a Motion; got 3$"),
         ({"block": 3}, "^block must be a Block; got 3 "),
         ({"ax": 3}, "^ax must be an? Axes; got 3$"),
     ],
@@ -187,7 +187,7 @@ def test_motion_without_events_is_refused_with_the_way_out():
 @pytest.mark.parametrize("draw", [rk.plot.time_history, rk.plot.phase_portrait])
 def test_argument_of_another_kind_is_refused_in_one_line(draw, how, message):
     with pytest.raises(TypeError, match=message):
-        draw(**({"motion": rk.simulate(SYSTEM, cycles=5)} | how))
+        draw(**({"result": rk.simulate(SYSTEM, cycles=5)} | how))
 
 
 def panel(ax):

@@ -128,5 +128,5 @@ def test_band_has_the_colour_of_the_kind():
 
 
 def test_other_than_a_verdict_is_refused_in_one_line():
-    with pytest.raises(TypeError, match="^verdict must be a Verdict; got 3$"):
+    with pytest.raises(TypeError, match="^result must be a Verdict; got 3$"):
         rk.plot.verdict(3)

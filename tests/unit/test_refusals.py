@@ -19,8 +19,8 @@ def values():
     return {
         "orbit": orbit,
         "special": rk.continue_orbit(orbit, "amplitude", (10, 30)).special[0],
-        "diagram": rk.orbit_diagram(SYSTEM, "amplitude", [14.0, 15.0], cycles=5, transient=5),
-        "map": rk.parametric_map(**axes, restitution=0.9, max_cycles=10),
+        "diagram": rk.orbit_diagram(SYSTEM, amplitude=[14.0, 15.0], cycles=5, transient=5),
+        "map": rk.parametric_map(SYSTEM, **axes, max_cycles=10).dataset,
     }
 
 
@@ -41,7 +41,7 @@ CALLS = {
     "bounds that are a text": (lambda v: rk.continue_orbit(v["orbit"], "amplitude", bounds="ab"), PAIR),
     "no box": (lambda v: rk.find_orbits(SYSTEM, 1, angles=1.5), r"angles must be \(lowest, highest\), .*; got 1\.5$"),
     "half a box": (lambda v: rk.find_orbits(SYSTEM, 1, velocities=[1.5]), r"velocities must be \(lowest, highest\)"),
-    "no executor": (lambda v: rk.chaos_share(restitution=0.9, samples=5, executor=True), "executor must be an Executor; got True"),
+    "no executor": (lambda v: rk.chaos_share(SYSTEM, samples=5, executor=True), "executor must be an Executor; got True"),
     "no executor of repeatability": (lambda v: rk.repeatability(SYSTEM, executor=3), "executor must be an Executor; got 3"),
     "no branches": (lambda v: rk.plot.orbit_diagram(v["diagram"], branches=None), "branches must be a sequence of Branch; got None"),
     "no curves": (lambda v: rk.plot.parametric_map(v["map"], curves=None), "curves must be a sequence of '.*'; got None"),
@@ -58,8 +58,8 @@ CALLS = {
     "one ratio": (lambda v: rk.plot.panels(columns=2, ratios=3), "ratios must be 2 positive numbers, one per column; got 3"),
     "too few ratios": (lambda v: rk.plot.panels(columns=2, ratios=(3,)), "ratios must be 2 positive numbers, one per column"),
     "an array of times": (lambda v: rk.theory.melnikov_integral([0.3], 2.0, 1.0, 0.9), "time must be a finite real number "),
-    "progress of responses": (lambda v: rk.response_diagram(SYSTEM, "amplitude", [1], progress=5), "progress must be .*; got 5 "),
-    "progress of orbits": (lambda v: rk.orbit_diagram(SYSTEM, "amplitude", [1], progress=True), "progress must be a function .*got True"),
+    "progress of responses": (lambda v: rk.response_diagram(SYSTEM, amplitude=[1], progress=5), "progress must be a bool; got"),
+    "progress of orbits": (lambda v: rk.orbit_diagram(SYSTEM, amplitude=[1], progress=3), "progress must be a bool; got"),
     "no time": (lambda v: rk.theory.melnikov_integral(float("inf"), 2.0, 1.0, 0.9), "time must be a finite real number "),
 }  # fmt: skip
 

@@ -83,7 +83,7 @@ def test_points_of_each_orbit_are_on_its_section():
 def test_a_diagram_of_orbits_has_no_multipliers():
     with pytest.raises(ValueError, match="quantity must be"):
         rk.plot.orbit_diagram(
-            rk.orbit_diagram(PERIOD_3, "amplitude", [6.4, 6.5], cycles=5, transient=5), quantity="multiplier"
+            rk.orbit_diagram(PERIOD_3, amplitude=[6.4, 6.5], cycles=5, transient=5), quantity="multiplier"
         )
 
 

@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.model.progress import Bar
 
 CASCADE = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
 UNDAMPED = rk.System(rk.Harmonic(amplitude=4.0, period=0.4), restitution=1.0)
@@ -53,7 +54,7 @@ CASES = {
 @pytest.mark.parametrize("name", CASES)
 def test_verdict_at_each_value_is_that_of_classify(name):
     case = CASES[name]
-    found = rk.response_diagram(case.system, case.parameter, case.values[::-1], max_cycles=20_000)
+    found = rk.response_diagram(case.system, **{case.parameter: case.values[::-1]}, max_cycles=20_000)
     assert found.values.tolist() == case.values
     for k, value in enumerate(case.values):
         alone = rk.classify(case.at(value), max_cycles=20_000)
@@ -69,17 +70,19 @@ def test_verdict_at_each_value_is_that_of_classify(name):
 def test_all_types_of_response_are_among_the_cases():
     kinds = set()
     for case in CASES.values():
-        kinds |= set(rk.response_diagram(case.system, case.parameter, case.values, max_cycles=20_000).kind)
+        kinds |= set(
+            rk.response_diagram(case.system, **{case.parameter: case.values}, max_cycles=20_000).kind
+        )
     assert kinds >= {"rest", "periodic", "quasi-periodic", "chaotic", "overturned"}
 
 
 def test_start_and_limits_are_those_of_classify():
     start = rk.State(0.0, 0.15)
     system = rk.System(rk.Harmonic(5.5, period=0.5, phase=1.8), restitution=0.925)
-    found = rk.response_diagram(system, "amplitude", [5.5], start)
+    found = rk.response_diagram(system, start, amplitude=[5.5])
     assert (found.period.tolist(), found.start) == ([10], start)
-    assert rk.response_diagram(system, "amplitude", [5.5], start, max_period=9).kind.tolist() != ["periodic"]
-    assert rk.response_diagram(CASCADE, "amplitude", [10.103037], max_cycles=500).kind.tolist() == [
+    assert rk.response_diagram(system, start, amplitude=[5.5], max_period=9).kind.tolist() != ["periodic"]
+    assert rk.response_diagram(CASCADE, amplitude=[10.103037], max_cycles=500).kind.tolist() == [
         "undetermined"
     ]
 
@@ -89,7 +92,7 @@ def test_exponent_of_a_stable_focus_is_ln_e_times_the_impact_rate(restitution):
     """Complex multipliers have the modulus e² over a period with two impacts."""
     system = rk.System(rk.Harmonic(2.0, period=1.0), restitution)
     periods = np.array([0.9, 1.0, 1.1])
-    found = rk.response_diagram(system, "period", periods)
+    found = rk.response_diagram(system, period=periods)
     assert all(abs(verdict.multipliers[0].imag) > 0.1 for verdict in found.verdicts)
     np.testing.assert_allclose(found.exponent, 2 * math.log(restitution) / periods, rtol=1e-12)
     assert not found.exponent_error.any()
@@ -97,7 +100,7 @@ def test_exponent_of_a_stable_focus_is_ln_e_times_the_impact_rate(restitution):
 
 def test_exponents_are_those_of_two_tangent_vectors():
     """Real multipliers near a symmetry breaking, and chaos; two estimates differ by five standard errors at most."""
-    found = rk.response_diagram(CASCADE, "amplitude", [7.2, 10.103037])
+    found = rk.response_diagram(CASCADE, amplitude=[7.2, 10.103037])
     for verdict, exponent, error in zip(found.verdicts, found.exponent, found.exponent_error, strict=True):
         spectrum = rk.lyapunov(verdict.system, cycles=50_000)
         assert abs(exponent - spectrum.values[0]) <= 5 * math.hypot(error, spectrum.errors[0])
@@ -126,7 +129,7 @@ def turns_about_origin(system, start, cycles, first=0):
 )
 def test_rotation_number_is_twice_the_turns_about_the_origin(system, kind):
     """Over N cycles, turns of a regular motion are off by 1/N at most; those of chaos have an error of their own."""
-    found = rk.response_diagram(system, "amplitude", [system.forcing.amplitude])
+    found = rk.response_diagram(system, amplitude=[system.forcing.amplitude])
     assert found.kind.tolist() == [kind]
     regular, cycles = kind != "chaotic", 1_000
     turns = turns_about_origin(system, rk.State(), cycles, 1_000)
@@ -144,7 +147,7 @@ def test_rotation_numbers_of_the_symmetric_modes_are_fractions():
             if each.admissible and each.stable
         )
         found = rk.response_diagram(
-            rk.System(rk.Harmonic(amplitude, period=period), 0.925), "amplitude", [amplitude]
+            rk.System(rk.Harmonic(amplitude, period=period), 0.925), amplitude=[amplitude]
         )
         assert found.period.tolist() == [mode.n]
         assert found.rotation.tolist() == [2 / mode.n]
@@ -154,7 +157,7 @@ def test_rotation_numbers_of_the_symmetric_modes_are_fractions():
 def test_rotation_number_of_free_rocking_has_a_closed_form():
     """A = 0 and e = 1 from Θ₀: a quarter period is arccosh(1/(1 − Θ₀)), and two of them lie between impacts."""
     system = rk.System(rk.Harmonic(0.0, period=1.0), restitution=1.0)
-    found = rk.response_diagram(system, "period", [0.7, 1.0], rk.State(0.5))
+    found = rk.response_diagram(system, rk.State(0.5), period=[0.7, 1.0])
     assert found.kind.tolist() == ["quasi-periodic"] * 2
     np.testing.assert_allclose(found.rotation, np.array([0.7, 1.0]) / (2 * math.acosh(2.0)), rtol=1e-12)
     assert (found.rotation_error < 1e-9).all()
@@ -166,7 +169,7 @@ def test_rotation_within_an_island_is_the_angle_of_the_multipliers():
     speed = math.tanh(half / 2) + frequency / (1 + frequency**2)
     turn = math.acos(-math.cosh(half) + math.sinh(half) / speed) / math.pi
     system = rk.System(rk.Harmonic(1.0, period=1.0, phase=-math.pi / 2), restitution=1.0)
-    found = rk.response_diagram(system, "amplitude", [1.0], rk.State(velocity=speed * (1 + 1e-4)))
+    found = rk.response_diagram(system, rk.State(velocity=speed * (1 + 1e-4)), amplitude=[1.0])
     assert found.kind.tolist() == ["quasi-periodic"]
     assert found.rotation[0] == pytest.approx(2.0, abs=1e-12)
     free = found.rotation_numbers[0].free
@@ -178,7 +181,7 @@ def test_torus_bent_around_its_mean_keeps_its_mean_number_of_impacts():
     system, start = rk.System(rk.Harmonic(0.3, period=2.0), 1.0), rk.State(velocity=0.55)
     with pytest.raises(ValueError, match="strongly bent"):
         rk.rotation_number(system, start)
-    found = rk.response_diagram(system, "amplitude", [0.3], start)
+    found = rk.response_diagram(system, start, amplitude=[0.3])
     assert found.rotation_numbers == (None,)
     assert found.rotation[0] == pytest.approx(2.0, abs=1e-9)
 
@@ -186,14 +189,14 @@ def test_torus_bent_around_its_mean_keeps_its_mean_number_of_impacts():
 def test_brace_hits_are_no_impacts():
     """Bouncing on one brace never turns about the origin."""
     system = rk.System(rk.Harmonic(0.1, period=1.0), 0.9, rk.Braces(1.5, 1.0))
-    found = rk.response_diagram(system, "amplitude", [0.1], rk.State(1.3))
+    found = rk.response_diagram(system, rk.State(1.3), amplitude=[0.1])
     assert found.kind.tolist() == ["quasi-periodic"]
     assert found.rotation.tolist() == [0.0]
     assert found.rotation_numbers[0].section == "brace hits"
 
 
 def test_rotation_number_of_chaos_lies_within_its_error():
-    found = rk.response_diagram(BRACED, "amplitude", [14.0, 15.0])
+    found = rk.response_diagram(BRACED, amplitude=[14.0, 15.0])
     assert found.kind.tolist() == ["chaotic"] * 2
     for k, verdict in enumerate(found.verdicts):
         longer = rk.lyapunov(verdict.system, rk.State(0.1, 0.2), cycles=200_000)
@@ -206,18 +209,18 @@ def test_rotation_number_of_chaos_lies_within_its_error():
 def test_number_is_unknown_without_a_response_and_zero_at_rest():
     """At e = 0.5 and A slightly above 1 infinitely many impacts precede rest in each cycle."""
     system = rk.System(rk.Harmonic(1.0, period=2.0), restitution=0.5)
-    found = rk.response_diagram(system, "amplitude", [0.9, 1.05, 1.3, 30.0])
+    found = rk.response_diagram(system, amplitude=[0.9, 1.05, 1.3, 30.0])
     assert found.kind.tolist() == ["rest", "periodic", "periodic", "overturned"]
     np.testing.assert_array_equal(found.rotation, [0.0, math.nan, 2.0, math.nan])
     np.testing.assert_array_equal(found.rotation_error, [0.0, math.nan, 0.0, math.nan])
     assert np.isneginf(found.exponent[:2]).all()
     assert np.isnan(found.exponent[3])
-    few = rk.response_diagram(CASCADE, "amplitude", [10.103037], max_cycles=500)
+    few = rk.response_diagram(CASCADE, amplitude=[10.103037], max_cycles=500)
     assert np.isnan(few.rotation).all()
 
 
 def test_dataset_comes_back_from_a_file(tmp_path):
-    found = rk.response_diagram(FULL, "amplitude", [0.5, 2.0, 30.0], rk.State(0.1))
+    found = rk.response_diagram(FULL, rk.State(0.1), amplitude=[0.5, 2.0, 30.0])
     found.to_xarray().to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     with xr.open_dataset(tmp_path / "a.nc") as read:
         names = read["kind"].attrs["flag_meanings"].split()
@@ -237,16 +240,17 @@ def test_dataset_comes_back_from_a_file(tmp_path):
 
 
 def test_one_line_tells_range_start_and_types():
-    found = rk.response_diagram(CASCADE, "amplitude", [0.9, 10.4, 10.5, 10.7, 11.5])
+    found = rk.response_diagram(CASCADE, amplitude=[0.9, 10.4, 10.5, 10.7, 11.5])
     assert str(found) == (
         "response diagram over amplitude 0.9 to 11.5, 5 values, each from Θ = 0, Θ' = 0: "
         "1 rest, 3 periodic (periods 1, 2, 4), 1 overturned"
     )
 
 
-def test_progress_counts_every_value():
+def test_progress_counts_every_value(monkeypatch):
     done = []
-    rk.response_diagram(CASCADE, "amplitude", np.linspace(2, 5, 37), progress=done.append)
+    monkeypatch.setattr(Bar, "advance", lambda bar, count: done.append(count))
+    rk.response_diagram(CASCADE, amplitude=np.linspace(2, 5, 37))
     assert sum(done) == 37
 
 
@@ -269,16 +273,17 @@ def test_value_that_does_not_take_the_start_is_refused_before_any_verdict(begun)
     with pytest.raises(
         ValueError, match=r"^angle must lie within ±1\.5708, where the block lies flat; got 2"
     ):
-        rk.response_diagram(FULL, "critical_angle", [0.1, 0.2, 1.0], rk.State(2.0))
+        rk.response_diagram(FULL, rk.State(2.0), critical_angle=[0.1, 0.2, 1.0])
     assert begun == []
 
 
-def test_no_value_begins_after_an_interruption(begun):
-    def interrupted(_):
+def test_no_value_begins_after_an_interruption(begun, monkeypatch):
+    def interrupted(*_):
         raise KeyboardInterrupt
 
+    monkeypatch.setattr(Bar, "advance", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        rk.response_diagram(UNDAMPED, "amplitude", np.linspace(1.5, 3.0, 2_000), progress=interrupted)
+        rk.response_diagram(UNDAMPED, amplitude=np.linspace(1.5, 3.0, 2_000))
     assert len(begun) < 500
 
 
@@ -291,18 +296,18 @@ FINITE = rk.System(rk.PiecewiseLinear([0.0, 2.0, 0.0], step=1.0), restitution=0.
         (dict(system=3), TypeError, "system must be a System; got 3"),
         (dict(system=FINITE), TypeError, "system must have a periodic base motion, rk.Harmonic; got PiecewiseLinear"),
         (
-            dict(system=FINITE, parameter="restitution", values=[0.5]),
+            dict(system=FINITE, amplitude=None, restitution=[0.5]),
             TypeError,
             "system must have a periodic base motion, rk.Harmonic; got PiecewiseLinear",
         ),
-        (dict(parameter="width"), ValueError, "parameter must be one of 'amplitude', .*; got 'width'"),
-        (dict(values=[]), ValueError, r"values must be 1 to 100,000 finite numbers; got \[\]"),
-        (dict(values=[1.0, math.inf]), ValueError, "values must be 1 to 100,000 finite numbers"),
-        (dict(values="a"), TypeError, "values must be a real number or an array"),
-        (dict(values=[1.0, -1.0]), ValueError, r"amplitude must lie in \[0, 1000\]; got -1.0"),
-        (dict(parameter="brace_restitution"), ValueError, "brace_restitution needs a system with braces"),
+        (dict(period=[1.0]), TypeError, "give exactly one of amplitude, period, .*; got amplitude=.* and period="),
+        (dict(amplitude=[]), ValueError, r"amplitude must be 1 to 100,000 finite numbers; got \[\]"),
+        (dict(amplitude=[1.0, math.inf]), ValueError, "amplitude must be 1 to 100,000 finite numbers"),
+        (dict(amplitude="a"), TypeError, "amplitude must be a real number or an array"),
+        (dict(amplitude=[1.0, -1.0]), ValueError, r"amplitude must lie in \[0, 1000\]; got -1.0"),
+        (dict(amplitude=None, brace_restitution=[1.0]), ValueError, "brace_restitution needs a system with braces"),
         (
-            dict(parameter="brace_angle", values=[0.5, 2.0], start=rk.State(0.8)),
+            dict(amplitude=None, brace_angle=[0.5, 2.0], start=rk.State(0.8)),
             ValueError,
             r"angle must lie between the braces, in \[-0.5, 0.5\]; got 0.8",
         ),
@@ -312,7 +317,7 @@ FINITE = rk.System(rk.PiecewiseLinear([0.0, 2.0, 0.0], step=1.0), restitution=0.
     ],
 )  # fmt: skip
 def test_refusals_are_one_line(change, error, message):
-    given = dict(system=CASCADE, parameter="amplitude", values=[1.0]) | change
+    given = dict(system=CASCADE, amplitude=[1.0]) | change
     with pytest.raises(error, match=f"^{message}") as refused:
         rk.response_diagram(**given)
     assert "\n" not in str(refused.value)
@@ -320,7 +325,7 @@ def test_refusals_are_one_line(change, error, message):
 
 def test_dataset_over_the_period_holds_the_periods_of_the_responses():
     system = rk.System(rk.Harmonic(amplitude=5.5, period=1.0), restitution=0.925)
-    data = rk.response_diagram(system, "period", [0.3, 1.0]).to_xarray()
+    data = rk.response_diagram(system, period=[0.3, 1.0]).to_xarray()
     assert data.period.values.tolist() == [0.3, 1.0]
     assert data.orbit_period.values.tolist() == [
         rk.classify(rk.System(rk.Harmonic(5.5, period=period), 0.925)).period or 0 for period in (0.3, 1.0)
@@ -329,7 +334,7 @@ def test_dataset_over_the_period_holds_the_periods_of_the_responses():
 
 def test_braces_that_a_varied_angle_adds_are_among_the_constant_parameters():
     system = rk.System(rk.Harmonic(2.0, period=1.0), 0.9)
-    diagram = rk.response_diagram(system, "brace_angle", [0.2, 0.3], max_cycles=100)
+    diagram = rk.response_diagram(system, brace_angle=[0.2, 0.3], max_cycles=100)
     responses = {verdict.system.braces.restitution for verdict in diagram.verdicts}
     assert responses == {diagram.fixed["brace_restitution"]}
     assert diagram.to_xarray().attrs["brace_restitution"] == diagram.fixed["brace_restitution"]

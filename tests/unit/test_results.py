@@ -17,6 +17,7 @@ from PIL import Image
 import rocking as rk
 from rocking.model.quantity import QUANTITIES
 from rocking.model.result import Result
+from rocking.model.survey_results import RockingSpectrum
 from rocking.model.table import finite
 
 BLOCK = rk.Block(2.0, 0.5)
@@ -88,11 +89,11 @@ MADE = {
     "orbits": lambda: rk.find_orbits(SYSTEM, 1),
     "orbits of a resting block": lambda: rk.find_orbits(RESTING, 1),
     "orbit diagram": lambda: rk.orbit_diagram(
-        OF_BLOCK, "amplitude", [1.0, 2.0, 9.0], sweep="rest", cycles=4, transient=4
+        OF_BLOCK, amplitude=[1.0, 2.0, 9.0], sweep="rest", cycles=4, transient=4
     ),
-    "response diagram": lambda: rk.response_diagram(OF_BLOCK, "amplitude", [0.5, 1.5]),
+    "response diagram": lambda: rk.response_diagram(OF_BLOCK, amplitude=[0.5, 1.5]),
     "frequency response": lambda: rk.frequency_response(
-        period=[0.5, 1.0], amplitude=2.0, restitution=0.925, modes=(1,)
+        rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), period=[0.5, 1.0], modes=(1,)
     ),
     "manifolds": lambda: rk.saddle_manifolds(
         rk.System(rk.Harmonic(amplitude=4.0, period=1.0), restitution=0.8), cycles=1
@@ -100,22 +101,46 @@ MADE = {
     "orbit manifolds": orbit_manifolds,
     "basins": lambda: rk.basin_map(OF_BLOCK, angle=[0.0, 0.1], velocity=[0.0, 0.1], boundary_runs=0),
     "random basins": lambda: rk.basin_map(SYSTEM, angle=(0, 1), velocity=(0, 1), samples=20),
-    "safe basin": lambda: rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=10),
+    "safe basin": lambda: rk.safe_basin(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925), amplitude=[0.2, 0.5], samples=10
+    ),
     "overturning": lambda: rk.overturning_amplitude(
-        period=[1.5, 2.0], restitution=0.925, amplitude=[1.0, 4.0], phases=2
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+        period=[1.5, 2.0],
+        amplitude=[1.0, 4.0],
+        phases=2,
     ),
     "overturning of one system": lambda: rk.overturning_amplitude(
-        period=2.0, restitution=0.925, amplitude=[1.0, 4.0], phases=2
+        rk.System(rk.Harmonic(1.0, period=2.0), restitution=0.925), amplitude=[1.0, 4.0], phases=2
     ),
     "chaos": lambda: rk.chaos_share(
-        restitution=[0.8, 0.9], period=(0.5, 1.0), amplitude=(0.1, 0.9), samples=5
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=1.0),
+        restitution=[0.8, 0.9],
+        period=(0.5, 1.0),
+        amplitude=(0.1, 0.9),
+        samples=5,
     ),
+    "map": lambda: rk.parametric_map(SYSTEM, amplitude=[2.0, 3.0], period=[0.5, 1.0]),
+    "map of a block": lambda: rk.parametric_map(OF_BLOCK, amplitude=[0.5, 1.5], angle=[0.0, 0.5]),
+    "overturning spectrum": lambda: rk.overturning_spectrum(
+        rk.System(rk.Pulse("one-sine", amplitude=2.0, duration=1.0), restitution=0.9),
+        amplitude=[1.0, 8.0],
+        frequency=[1.0, 5.0],
+    ),
+    "rocking spectrum": lambda: rk.rocking_spectrum(RECORDS, BLOCK, size=[0.5, 1.0], slenderness=[0.1, 0.2]),
     "repeatability": lambda: rk.repeatability(OF_BLOCK, samples=10),
     "map of repeatability": lambda: rk.repeatability_map(
-        amplitude=[0.2, 0.5], period=[1.0, 2.0], restitution=0.9, samples=5
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.9),
+        amplitude=[0.2, 0.5],
+        period=[1.0, 2.0],
+        samples=5,
     ),
     "proved share": lambda: rk.proved_share(
-        rk.parametric_map(amplitude=[2.0, 3.0], period=[0.5, 1.0], restitution=0.925)
+        rk.parametric_map(
+            rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+            amplitude=[2.0, 3.0],
+            period=[0.5, 1.0],
+        )
     ),
     "incremental dynamic analysis": lambda: rk.incremental_dynamic_analysis(
         RECORDS, BLOCK, LEVELS, intensity="pga"
@@ -127,9 +152,18 @@ MADE = {
 WITHOUT_FIGURE = {"orbit", "proof", "horseshoe", "rotation number", "proved share", "sensitivity"}
 
 
+OF_MANY_BLOCKS = "rocking spectrum"
+"""Its angles are in units of the critical angle of each block."""
+
+
 @cache
 def made(name):
     return MADE[name]()
+
+
+def in_units(name, units):
+    """Return the arguments that select the units of a result."""
+    return {} if name == OF_MANY_BLOCKS else {"units": units, "block": BLOCK}
 
 
 def test_every_class_of_results_is_tested():
@@ -137,18 +171,20 @@ def test_every_class_of_results_is_tested():
         return {each.__name__ for each in kind.__subclasses__()}.union(*map(below, kind.__subclasses__()))
 
     tested = {type(made(name)).__name__ for name in MADE}
-    assert below(Result) - {"Modes"} == tested  # modes are a result of the command line alone
+    # modes are a result of the command line alone, and surveys of a system are a base class
+    assert below(Result) - {"Modes", "SystemSurvey"} == tested
 
 
 @pytest.mark.parametrize("units", ["si", "normalised"])
 @pytest.mark.parametrize("name", MADE)
 def test_dataset_describes_its_variables_and_comes_back_from_a_file(name, units, tmp_path):
-    data = made(name).to_xarray(units=units, block=BLOCK)
+    data = made(name).to_xarray(**in_units(name, units))
     for each, variable in data.variables.items():
         normalised = variable.attrs.get("units") == "1"
         assert variable.attrs.get("long_name") or each in ("record", "change", "sample"), each
-        assert not (units == "si" and normalised and QUANTITIES[each].si) if each in QUANTITIES else True
-    assert data.attrs["block_height_m"] == 2.0
+        if each in QUANTITIES and name != OF_MANY_BLOCKS:
+            assert not (units == "si" and normalised and QUANTITIES[each].si)
+    assert data.attrs.get("block_height_m") == (None if name == OF_MANY_BLOCKS else 2.0)
     data.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     read = xr.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
     xr.testing.assert_equal(read, data)
@@ -159,9 +195,9 @@ def test_dataset_describes_its_variables_and_comes_back_from_a_file(name, units,
 @pytest.mark.parametrize("name", MADE)
 def test_json_and_tables_hold_the_values_of_the_dataset(name, units):
     result = made(name)
-    data = result.to_xarray(units=units, block=BLOCK)
-    tables = result.tables(units=units, block=BLOCK)
-    found = json.loads(json.dumps(result.to_dict(units=units, block=BLOCK), allow_nan=False))
+    data = result.to_xarray(**in_units(name, units))
+    tables = result.tables(**in_units(name, units))
+    found = json.loads(json.dumps(result.to_dict(**in_units(name, units)), allow_nan=False))
     assert {"title", "source"} <= found.keys()
     for each, table in tables.items():
         columns = list(table.values())
@@ -259,6 +295,33 @@ def test_si_without_a_block_and_unknown_units_are_refused_in_a_sentence(method):
         getattr(motion, method)(units="m")
     with pytest.raises(TypeError, match="block must be a Block"):
         getattr(motion, method)(block=2.0)
+
+
+@pytest.mark.parametrize("units", [{"units": "si"}, {"block": BLOCK}])
+def test_blocks_of_many_sizes_have_no_common_units(units):
+    message = "must be omitted: the angles are in units of the critical angle of each block; got"
+    with pytest.raises(ValueError, match=f"^{next(iter(units))} {message}"):
+        made(OF_MANY_BLOCKS).to_xarray(**units)
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_rocking_spectrum_of_version_0_1_is_refused_in_a_sentence(kept):
+    """Its levels, a dimension or an attribute, were named `scale`."""
+    data = made(OF_MANY_BLOCKS).dataset.drop_attrs(deep=False)
+    old = data.expand_dims(scale=[1.0, 2.0]) if kept else data.assign_attrs(scale=1.0)
+    message = (
+        r"^dataset must name its levels `level`; got `scale`, their name in version 0.1 \(compute it again\)$"
+    )
+    for read in (RockingSpectrum, rk.plot.rocking_spectrum):
+        with pytest.raises(ValueError, match=message):
+            read(old)
+
+
+def test_survey_of_blocks_of_several_angles_is_normalised():
+    assert made("map of a block").block == BLOCK
+    several = rk.parametric_map(OF_BLOCK, amplitude=[0.5, 1.0], critical_angle=[0.1, 0.2])
+    assert several.block is None
+    assert several.to_xarray()["amplitude"].attrs["units"] == "1"
 
 
 def test_unknown_table_is_refused():

@@ -15,7 +15,7 @@ import xarray as xr
 import rocking as rk
 from rocking.survey.ending_measures import VARIABLES, alike, ending
 from rocking.survey.measurement import batches
-from rocking.survey.spec import motion_question
+from rocking.survey.spec import motion_spec
 from rocking.survey.tiling import finest, levels
 
 GRAVITY = 9.80665
@@ -24,7 +24,7 @@ RECORDS = rk.RecordSet(rk.synthetic_ground_motions(2, seed=3, duration=6.0))
 ASKED = {
     "size": np.linspace(0.2, 4.0, 150),
     "slenderness": [0.1, 0.2, 0.3],
-    "scale": 0.4,
+    "levels": 0.4,
     "intensity": "pga-g",
 }
 RUN = """
@@ -33,8 +33,8 @@ import numpy as np
 import rocking as rk
 
 records = rk.synthetic_ground_motions(2, seed=3, duration=6.0)
-asked = dict(size=np.linspace(0.2, 4.0, 150), slenderness=[0.1, 0.2, 0.3], scale=0.4, intensity="pga-g")
-asked["scale"] = np.linspace(0.3, 0.5, 3000)  # thousands of times as many runs
+asked = dict(size=np.linspace(0.2, 4.0, 150), slenderness=[0.1, 0.2, 0.3], levels=0.4, intensity="pga-g")
+asked["levels"] = np.linspace(0.3, 0.5, 3000)  # thousands of times as many runs
 print("running", flush=True)
 rk.rocking_spectrum(records, **asked, store=sys.argv[1])
 """
@@ -48,7 +48,7 @@ import rocking as rk
 sizes, scales = np.linspace(0.5, 4.0, int(sys.argv[2])), np.linspace(0.5, 1.02, int(sys.argv[3]))
 rk.rocking_spectrum(
     rk.synthetic_ground_motions(100, seed=1, duration=2.0),
-    size=sizes, slenderness=0.2, scale=scales, intensity="pga-ratio", store=sys.argv[1],
+    size=sizes, slenderness=0.2, levels=scales, intensity="pga-ratio", store=sys.argv[1],
 )
 print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 """
@@ -87,11 +87,11 @@ def differing(count, seed):
         "size": np.sort(random.uniform(0.1, 6.0, 12)),
         "slenderness": np.sort(random.uniform(0.05, 0.5, 5)),
         "restitution": np.sort(random.uniform(0.4, 0.98, 3)),
-        "scale": np.sort(random.uniform(1.05, 4.0, 6)),
+        "levels": np.sort(random.uniform(1.05, 4.0, 6)),
         "angle": np.array([-0.3, 0.0, 0.6]),
         "polarity": np.array([-1.0, 1.0]),
     }
-    found = rk.rocking_spectrum(records, **given, intensity="pga-ratio")
+    found = rk.rocking_spectrum(records, **given, intensity="pga-ratio").dataset
     wrong, certified = [], 0
     for flat in random.choice(found.outcome.size, count, replace=False):
         index = np.unravel_index(flat, found.outcome.shape)
@@ -101,7 +101,7 @@ def differing(count, seed):
         block = rk.Block(
             2 * size * math.cos(slenderness), 2 * size * math.sin(slenderness), at["restitution"]
         )
-        ground = records[int(at["record"])].scaled(pga=at["scale"] * GRAVITY * math.tan(slenderness))
+        ground = records[int(at["record"])].scaled(pga=at["level"] * GRAVITY * math.tan(slenderness))
         ground = ground if at["polarity"] > 0 else ground.reversed()
         motion = rk.simulate(block.system(ground), start)
         certified += bool(row["certified"])
@@ -119,7 +119,7 @@ def test_without_losses_the_peak_is_that_of_the_free_motion_too(model):
     ground = rk.GroundMotion([0.7233053866521985, -2.0, -1.5803530364312197], step=0.02)
     found = rk.rocking_spectrum(
         ground, size=[1.0, 1.5], slenderness=0.2, restitution=1.0, angle=-0.5, model=model
-    )
+    ).dataset
     for size, peak in zip((1.0, 1.5), found.peak.values, strict=True):
         block = rk.Block(2 * size * math.cos(0.2), 2 * size * math.sin(0.2), 1.0)
         motion = rk.simulate(block.system(ground, model=model), rk.State(-0.5), duration=40.0)
@@ -145,14 +145,14 @@ def test_many_random_points_end_as_simulate_says():
 
 
 def test_dataset_names_its_axes_records_and_quantities():
-    found = rk.rocking_spectrum(RECORDS, **ASKED)
+    found = rk.rocking_spectrum(RECORDS, **ASKED).dataset
     assert found.outcome.dims == ("record", "size", "slenderness")
     assert found.name.values.tolist() == list(RECORDS.names)
     assert found.pga.values.tolist() == [motion.pga for motion in RECORDS]
     np.testing.assert_allclose(
         found.frequency_parameter, np.sqrt(3 * GRAVITY / 4 / ASKED["size"]), rtol=4e-16
     )
-    named = {"scale": 0.4, "intensity": "pga-g", "angle": 0.0, "polarity": 1.0, "inertia_ratio": 4 / 3}
+    named = {"level": 0.4, "intensity": "pga-g", "angle": 0.0, "polarity": 1.0, "inertia_ratio": 4 / 3}
     assert (named | {"records_sha256": RECORDS.digest}).items() <= found.attrs.items()
     assert {each.name for each in VARIABLES} == set(found.data_vars)
     overturned = found.outcome == OUTCOMES.index("overturned")
@@ -162,11 +162,11 @@ def test_dataset_names_its_axes_records_and_quantities():
 
 
 def test_one_record_is_no_dimension_and_its_name_an_attribute():
-    found = rk.rocking_spectrum(RECORDS[0], size=[1.0, 2.0], slenderness=0.2)
+    found = rk.rocking_spectrum(RECORDS[0], size=[1.0, 2.0], slenderness=0.2).dataset
     assert found.outcome.dims == ("size",)
     assert found.attrs["record"] == RECORDS.names[0]
     assert found.equals(
-        rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=0.2).isel(record=0, drop=True)
+        rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=0.2).dataset.isel(record=0, drop=True)
     )
 
 
@@ -177,14 +177,16 @@ def test_single_point_is_refused_with_the_way_out():
 
 
 def test_motion_of_zeros_moves_no_block():
-    found = rk.rocking_spectrum(rk.GroundMotion([0.0, 0.0], step=0.1), size=[1.0, 2.0], slenderness=0.2)
+    found = rk.rocking_spectrum(
+        rk.GroundMotion([0.0, 0.0], step=0.1), size=[1.0, 2.0], slenderness=0.2
+    ).dataset
     assert found.peak.values.tolist() == [0.0, 0.0]
     assert set(found.outcome.values.tolist()) == {OUTCOMES.index("at-rest")}
 
 
 def test_reversed_motion_is_that_of_the_other_polarity():
-    both = rk.rocking_spectrum(RECORDS, **ASKED, polarity=[-1.0, 1.0])
-    turned = rk.rocking_spectrum([motion.reversed() for motion in RECORDS], **ASKED)
+    both = rk.rocking_spectrum(RECORDS, **ASKED, polarity=[-1.0, 1.0]).dataset
+    turned = rk.rocking_spectrum([motion.reversed() for motion in RECORDS], **ASKED).dataset
     xr.testing.assert_equal(
         both.sel(polarity=-1.0, drop=True)[["outcome", "peak"]], turned[["outcome", "peak"]]
     )
@@ -193,7 +195,7 @@ def test_reversed_motion_is_that_of_the_other_polarity():
 @pytest.fixture(scope="module")
 def plain():
     """The spectrum in memory."""
-    return rk.rocking_spectrum(RECORDS, **ASKED)
+    return rk.rocking_spectrum(RECORDS, **ASKED).dataset
 
 
 @pytest.fixture(scope="module")
@@ -206,7 +208,7 @@ def made(tmp_path_factory):
 
 def test_store_gives_the_spectrum_in_memory_and_is_not_computed_twice(plain, made):
     before = files(made)
-    assert rk.rocking_spectrum(RECORDS, **ASKED, store=made).load().equals(plain)
+    assert rk.rocking_spectrum(RECORDS, **ASKED, store=made).dataset.load().equals(plain)
     assert files(made) == before
 
 
@@ -255,8 +257,8 @@ def test_peak_memory_of_a_store_does_not_follow_the_number_of_points(tmp_path):
 
 
 def test_batches_are_stretches_of_neighbours_that_share_tables():
-    given = {"size": np.linspace(0.2, 4.0, 400), "scale": np.linspace(0.3, 0.6, 400)}
-    spec = motion_question(
+    given = {"size": np.linspace(0.2, 4.0, 400), "level": np.linspace(0.3, 0.6, 400)}
+    spec = motion_spec(
         rk.RecordSet(RECORDS[0]),
         given | {"slenderness": 0.2, "angle": 0.0, "polarity": 1.0},
         intensity="pga-g",
@@ -273,9 +275,9 @@ def test_batches_are_stretches_of_neighbours_that_share_tables():
 
 
 def test_neighbours_with_equal_record_and_frequency_parameter_are_one_stretch():
-    spec = motion_question(
+    spec = motion_spec(
         RECORDS,
-        {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "scale": 1.0},
+        {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "level": 1.0},
         intensity="scale",
     )
     mesh = np.meshgrid(*spec.axes.values(), indexing="ij")

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from surveyed import system_with
 
 # a symmetric orbit and a pair of mirror images, found by marching from many initial states
 PAIR = rk.System(rk.Harmonic(amplitude=8.0, period=1.721328), 0.8, rk.Braces(1.0, 0.8))
@@ -157,7 +158,10 @@ def test_a_basin_map_in_a_store_is_the_same(tmp_path):
 @pytest.mark.parametrize(
     "options, message",
     [
-        ({"angle": [0.0, 1.0], "velocity": 0.5}, "a basin map needs two quantities as arrays"),
+        (
+            {"angle": [0.0, 1.0], "velocity": 0.5},
+            "velocity must be an axis, an ascending array in [-1000, 1000]; got 0.5",
+        ),
         ({"angle": [1.0, 0.0], "velocity": [0.0, 1.0]}, "angle must hold two numbers or more"),
         ({"angle": 1.0, "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
         ({"angle": (1, 0), "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
@@ -187,7 +191,9 @@ def test_starts_beyond_the_braces_are_refused():
 def test_the_safe_area_is_what_the_motions_themselves_say():
     random = np.random.default_rng(7)
     starts = random.uniform((-1, -1), (1, 1), (60, 2))
-    found = rk.safe_basin(amplitude=[3.3, 5.5], period=1.0, restitution=0.8, samples=60, seed=7)
+    found = rk.safe_basin(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8), amplitude=[3.3, 5.5], samples=60, seed=7
+    )
     for amplitude, share in zip((3.3, 5.5), found.shares, strict=True):
         system = rk.System(rk.Harmonic(amplitude=amplitude, period=1.0), 0.8)
         outcomes = [
@@ -198,9 +204,9 @@ def test_the_safe_area_is_what_the_motions_themselves_say():
 
 def test_the_safe_area_is_that_of_the_frequency_the_phase_and_the_box_asked_for():
     starts = np.random.default_rng(5).uniform((-0.4, -0.9), (0.3, 0.2), (60, 2))
-    asked = {"frequency": 5.0, "phase": 1.0, "restitution": 0.8}
+    system = system_with(frequency=5.0, phase=1.0, restitution=0.8)
     found = rk.safe_basin(
-        amplitude=[0.5, 6.0], **asked, angle=(-0.4, 0.3), velocity=(-0.9, 0.2), samples=60, seed=5
+        system, amplitude=[0.5, 6.0], angle=(-0.4, 0.3), velocity=(-0.9, 0.2), samples=60, seed=5
     )
     for amplitude, share in zip((0.5, 6.0), found.shares, strict=True):
         system = rk.System(rk.Harmonic(amplitude, frequency=5.0, phase=1.0), 0.8)
@@ -211,8 +217,9 @@ def test_the_safe_area_is_that_of_the_frequency_the_phase_and_the_box_asked_for(
 
 
 def test_between_braces_every_start_is_safe():
-    asked = {"amplitude": [3.0, 6.0], "period": 1.0, "restitution": 0.8, "brace_angle": 0.5, "samples": 20}
-    found = rk.safe_basin(**asked, brace_restitution=0.7, angle=(-0.5, 0.5), max_cycles=200)
+    braced = system_with(restitution=0.8, brace_angle=0.5, brace_restitution=0.7)
+    asked = {"system": braced, "amplitude": [3.0, 6.0], "samples": 20}
+    found = rk.safe_basin(**asked, angle=(-0.5, 0.5), max_cycles=200)
     assert [share.count for share in found.shares] == [20, 20]
     assert found.dataset.attrs["brace_restitution"] == 0.7
     assert np.isnan([found.heteroclinic_amplitude, found.melnikov_amplitude]).all()
@@ -227,7 +234,9 @@ def test_between_braces_every_start_is_safe():
 def test_the_safe_area_need_not_fall_above_the_tangency():
     tangency = rk.theory.heteroclinic_amplitude(1.0, 0.8)
     found = rk.safe_basin(
-        amplitude=tangency * np.array([0.9, 1.0, 1.5, 2.0, 3.0]), period=1.0, restitution=0.8, max_cycles=1000
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8),
+        amplitude=tangency * np.array([0.9, 1.0, 1.5, 2.0, 3.0]),
+        max_cycles=1000,
     )
     # areas known to two digits, from a grid
     for share, known in zip(found.shares, (0.70, 0.69, 0.65, 0.63, 0.68), strict=True):
@@ -239,17 +248,15 @@ def test_the_safe_area_need_not_fall_above_the_tangency():
 
 
 def test_a_safe_basin_needs_amplitudes():
-    with pytest.raises(TypeError, match="amplitude must be an axis of amplitudes"):
-        rk.safe_basin(amplitude=1.0, period=[1.0, 2.0], restitution=0.8)
-    with pytest.raises(
-        TypeError, match="a safe basin needs one quantity as an array; got none of amplitude, "
-    ):
-        rk.safe_basin(amplitude=1.0, period=1.0, restitution=0.8)
+    with pytest.raises(TypeError, match="amplitude must be an axis, an ascending array"):
+        rk.safe_basin(system_with(restitution=0.8), amplitude=1.0)
+    with pytest.raises(TypeError, match="a safe basin needs one quantity as an array; got none"):
+        rk.safe_basin(system_with(restitution=0.8), amplitude=None)
 
 
 def test_what_is_drawn_at_random_can_be_drawn_again_from_what_the_dataset_says():
     asked = {"angle": (-0.4, 0.3), "velocity": (-0.2, 0.5), "samples": 20, "seed": 7}
-    told = rk.safe_basin(amplitude=[3.0, 6.0], period=1.0, restitution=0.8, **asked).dataset.attrs
+    told = rk.safe_basin(system_with(restitution=0.8), amplitude=[3.0, 6.0], **asked).dataset.attrs
     assert {name: told[name] for name in ("samples", "seed", "angle_range", "velocity_range")} == {
         "samples": 20,
         "seed": 7,
@@ -301,7 +308,7 @@ def test_progress_shows_random_states_and_boundary_runs(terminal):
 
 
 def test_progress_of_a_safe_basin_counts_the_states_of_all_amplitudes(terminal):
-    given = {"amplitude": [3.0, 6.0], "period": 1.0, "restitution": 0.8, "samples": 300}
+    given = {"system": system_with(restitution=0.8), "amplitude": [3.0, 6.0], "samples": 300}
     quiet = rk.safe_basin(**given)
     assert terminal() == [""]
     assert rk.safe_basin(**given, progress=True).shares == quiet.shares

@@ -8,6 +8,7 @@ import pytest
 
 import rocking as rk
 from rocking.kernels import batch
+from surveyed import surveyed, system_with
 
 WHERE = {"amplitude": np.linspace(0.5, 12.0, 5), "period": np.linspace(0.3, 2.5, 4)}
 KINDS = dict(enumerate(rk.Kind))
@@ -56,7 +57,7 @@ def check_against_classify(found, axes, fixed, max_cycles=200, max_period=64):
 
 
 def test_every_point_is_what_classify_says():
-    found = rk.parametric_map(**WHERE, restitution=0.9, max_cycles=200)
+    found = rk.parametric_map(system_with(restitution=0.9), **WHERE, max_cycles=200).dataset
     check_against_classify(found, WHERE, {"restitution": 0.9})
 
 
@@ -86,7 +87,7 @@ def test_every_point_is_what_classify_says():
     ],
 )
 def test_any_two_quantities_are_axes(axes, fixed):
-    found = rk.parametric_map(**axes, **fixed, max_cycles=100)
+    found = rk.parametric_map(**surveyed(**axes, **fixed), max_cycles=100).dataset
     assert set(found.kind.dims) == set(axes)
     check_against_classify(found, axes, fixed, max_cycles=100)
 
@@ -94,16 +95,17 @@ def test_any_two_quantities_are_axes(axes, fixed):
 def test_block_that_never_moves_has_no_transient():
     """A block at rest, one in contact with a brace, and one that comes to rest."""
     where = {"angle": [0.0, 1.2, 1.5], "velocity": [0.0, 0.5]}
-    found = rk.parametric_map(
-        **where, amplitude=0.2, period=2.0, restitution=0.9, brace_angle=1.5, brace_restitution=0.5
-    )
+    system = system_with(amplitude=0.2, period=2.0, restitution=0.9, brace_angle=1.5, brace_restitution=0.5)
+    found = rk.parametric_map(system, **where).dataset
     assert (found.kind == list(KINDS.values()).index("rest")).all()
     assert found.transient.sel(velocity=0.0, angle=[0.0, 1.5]).values.tolist() == [0, 0]
     assert found.transient.sel(angle=1.2, velocity=0.0) > 0
 
 
 def test_dataset_names_its_axes_flags_parameters_and_maker():
-    found = rk.parametric_map(**WHERE, restitution=0.9, phase=0.5, max_cycles=50, max_period=8)
+    found = rk.parametric_map(
+        system_with(restitution=0.9, phase=0.5), **WHERE, max_cycles=50, max_period=8
+    ).dataset
     assert found.kind.dims == ("amplitude", "period")
     assert all(np.array_equal(found[name], values) for name, values in WHERE.items())
     assert found.kind.dtype == np.uint8
@@ -114,7 +116,7 @@ def test_dataset_names_its_axes_flags_parameters_and_maker():
     assert named.items() <= found.attrs.items()
 
 
-BASE = {"amplitude": [1.0, 2.0], "period": [1.0, 2.0], "restitution": 0.9}
+BASE = {"system": system_with(restitution=0.9), "amplitude": [1.0, 2.0], "period": [1.0, 2.0]}
 REFUSED = {
     "empty axis": (
         {"amplitude": []},
@@ -124,7 +126,7 @@ REFUSED = {
         {"amplitude": [1.0]},
         (
             "amplitude must hold two numbers or more in [0, 1000], ascending; got an array of shape (1,) "
-            "(give a number for a quantity that does not vary)"
+            "(a quantity that does not vary is no axis)"
         ),
     ),
     "descending": (
@@ -158,38 +160,46 @@ REFUSED = {
     "a text": (
         {"amplitude": "1:2"},
         (
-            "amplitude must be a real number in [0, 1000] or an array; got '1:2' "
-            "(an axis is an array, such as np.linspace(start, stop, count))"
+            "amplitude must be an axis, an ascending array in [0, 1000]; got '1:2' "
+            "(such as np.linspace(start, stop, count))"
         ),
     ),
     "nothing to write to": ({"store": ""}, "store must be the path of a folder; got ''"),
-    "rebound without braces": (
-        {"brace_restitution": 0.5},
-        "brace_restitution must be used with brace_angle; got 0.5",
+    "a number": (
+        {"restitution": 0.5},
+        "restitution must be an axis, an ascending array in [0, 1]; got 0.5 (a number is that of the system)",
     ),
     "three axes": (
         {"restitution": [0.8, 0.9]},
         (
             "a parametric map needs two quantities as arrays; got amplitude and restitution and period "
-            "(give one of them as a number)"
+            "(the others are those of the system)"
         ),
     ),
     "one axis": (
-        {"amplitude": 1.0},
+        {"amplitude": None},
         "a parametric map needs two quantities as arrays; got period",
     ),
-    "fixed out of range": ({"restitution": 1.2}, "restitution must lie in [0, 1]; got 1.2"),
-    "nothing given": ({"restitution": None}, "a parametric map needs restitution; got none"),
+    "no axis": (
+        {"amplitude": None, "period": None},
+        "a parametric map needs two quantities as arrays; got none",
+    ),
+    "start out of range": (
+        {"start": rk.State(velocity=2e3)},
+        "velocity must lie in [-1000, 1000]; got 2000.0",
+    ),
+    "no system": ({"system": 3}, "system must be a System; got 3 ("),
+    "no start": ({"start": 0.1}, "start must be a State; got 0.1 ("),
     "period and frequency": (
-        {"frequency": 1.0},
-        "give exactly one of period, frequency; got period=[1.0, 2.0] and frequency=1.0",
+        {"amplitude": None, "frequency": [1.0, 2.0]},
+        "give exactly one of period, frequency; got period=[1.0, 2.0] and frequency=[1.0, 2.0]",
     ),
     "no brace to vary": (
-        {"amplitude": 1.0, "brace_restitution": [0.5, 1.0]},
-        "brace_restitution must be used with brace_angle; got [0.5, 1.0]",
+        {"amplitude": None, "brace_restitution": [0.5, 1.0]},
+        "brace_restitution must be used with brace_angle or a braced system; got [0.5, 1.0]",
     ),
     "start beyond a brace": (
-        {"angle": -0.7, "brace_angle": 0.6},
+        {"system": system_with(brace_angle=0.6), "start": rk.State(-0.7)},
         "angle must lie between the braces, in [-0.6, 0.6]; got -0.7",
     ),
     "cycles": ({"max_cycles": 0}, "max_cycles must be a whole number in [1, 100000000]; got 0"),
@@ -202,5 +212,7 @@ REFUSED = {
 @pytest.mark.parametrize("what", REFUSED)
 def test_what_cannot_be_mapped_is_refused_in_one_line(what):
     changed, message = REFUSED[what]
-    with pytest.raises((TypeError, ValueError), match=f"^{re.escape(message)}$"):
+    with pytest.raises(
+        (TypeError, ValueError), match=f"^{re.escape(message)}{'' if message.endswith('(') else '$'}"
+    ):
         rk.parametric_map(**(BASE | changed))

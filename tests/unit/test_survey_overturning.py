@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from surveyed import system_with
 
 CYCLES = 300
 
@@ -23,7 +24,11 @@ def test_a_curve_is_a_plain_scan_with_its_first_hits_refined():
     # and none of these answers is another when the phase is changed by up to 8e-13
     periods, amplitudes, phases = [1.2, 1.3], np.linspace(1.45, 5.95, 16), [0.0, math.pi / 3, 2 * math.pi / 3]
     found = rk.overturning_amplitude(
-        period=periods, restitution=0.925, amplitude=amplitudes, phases=3, max_cycles=CYCLES
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+        period=periods,
+        amplitude=amplitudes,
+        phases=3,
+        max_cycles=CYCLES,
     ).dataset
     for k, period in enumerate(periods):
         fell = np.array([[overturns(a, period, 0.925, phase) for a in amplitudes] for phase in phases])
@@ -41,15 +46,23 @@ def test_a_curve_is_a_plain_scan_with_its_first_hits_refined():
 
 def test_of_phases_that_overturn_at_the_same_amplitude_the_lowest_counts():
     """Each of these sets of phases holds the one before."""
-    asked = {"period": 1.2, "restitution": 0.925, "amplitude": [1.5, 6.0], "max_cycles": CYCLES}
-    lowest = [float(rk.overturning_amplitude(**asked, phases=count).dataset.lowest) for count in (1, 2, 4, 8)]
+    system, asked = (
+        system_with(period=1.2, restitution=0.925),
+        {"amplitude": [1.5, 6.0], "max_cycles": CYCLES},
+    )
+    lowest = [
+        float(rk.overturning_amplitude(system, **asked, phases=count).dataset.lowest)
+        for count in (1, 2, 4, 8)
+    ]
     assert lowest == sorted(lowest, reverse=True)
     assert lowest[0] > lowest[-1]
 
 
 def test_overturning_is_not_monotone_in_the_amplitude():
     found = rk.overturning_amplitude(
-        period=1.0, restitution=0.925, amplitude=np.linspace(0, 16, 1601), phases=1
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.925),
+        amplitude=np.linspace(0, 16, 1601),
+        phases=1,
     ).dataset
     # 86 to 92 under changes of the phase by 10⁻¹³: a point or three at the fractal boundary flip, each twice
     assert abs(found.changes.item() - 89) <= 9
@@ -75,7 +88,12 @@ def test_the_other_half_of_the_phases_says_the_same():
 
 
 def test_where_nothing_overturns_there_is_no_amplitude():
-    found = rk.overturning_amplitude(period=[0.1, 0.2], restitution=0.5, amplitude=[0.5, 1.5, 2.0], phases=2)
+    found = rk.overturning_amplitude(
+        rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.5),
+        period=[0.1, 0.2],
+        amplitude=[0.5, 1.5, 2.0],
+        phases=2,
+    )
     data = found.dataset
     assert np.isnan(data.lowest.values).all()
     assert data.survived_up_to.values.tolist() == [2.0, 2.0]
@@ -84,15 +102,17 @@ def test_where_nothing_overturns_there_is_no_amplitude():
 
 
 def test_where_the_first_amplitude_overturns_nothing_is_claimed_below_it():
-    data = rk.overturning_amplitude(period=5.0, restitution=0.9, amplitude=[3.0, 4.0], phases=2).dataset
+    data = rk.overturning_amplitude(
+        rk.System(rk.Harmonic(1.0, period=5.0), restitution=0.9), amplitude=[3.0, 4.0], phases=2
+    ).dataset
     assert float(data.lowest) == 3.0
     assert math.isnan(data.survived_up_to)
 
 
 def test_a_curve_over_restitution_and_period_is_that_of_each():
     how = {"amplitude": np.linspace(1.5, 6.0, 16), "phases": 2}
-    both = rk.overturning_amplitude(period=[1.2, 1.7], restitution=[0.8, 0.9], **how).dataset
-    alone = rk.overturning_amplitude(period=1.7, restitution=[0.8, 0.9], **how).dataset
+    both = rk.overturning_amplitude(system_with(), period=[1.2, 1.7], restitution=[0.8, 0.9], **how).dataset
+    alone = rk.overturning_amplitude(system_with(period=1.7), restitution=[0.8, 0.9], **how).dataset
     assert both.lowest.dims == ("restitution", "period")
     assert both.lowest.values[:, 1].tolist() == alone.lowest.values.tolist()
     assert both.heteroclinic_amplitude.values[1, 0] == rk.theory.heteroclinic_amplitude(1.2, 0.9)
@@ -101,20 +121,24 @@ def test_a_curve_over_restitution_and_period_is_that_of_each():
 @pytest.mark.parametrize(
     "options, message",
     [
+        ({"amplitude": 2.0}, "amplitude must be an axis, an ascending array in [0, 1000]; got 2.0"),
+        ({"phases": 0}, "phases must be a whole number in [1, 100000]; got 0"),
         (
-            {"period": 1.0, "restitution": 0.9, "amplitude": 2.0},
-            "amplitude must be an axis of amplitudes to scan",
+            {"period": [1.0, 2.0], "frequency": [1.0, 2.0]},
+            "give exactly one of period, frequency; got period",
         ),
         (
-            {"period": 1.0, "restitution": 0.9, "phases": 0},
-            "phases must be a whole number in [1, 100000]; got 0",
+            {"restitution": [0.5, 1.9]},
+            "restitution must hold two numbers or more in [0, 1], ascending; got 1.9",
         ),
-        ({"restitution": 0.9}, "give exactly one of period, frequency; got none"),
-        ({"period": 1.0, "restitution": 1.9}, "restitution must lie in [0, 1]; got 1.9"),
-        ({"period": [2.0, 1.0], "restitution": 0.9}, "period must hold two numbers or more"),
+        ({"period": [2.0, 1.0]}, "period must hold two numbers or more"),
+        (
+            {"system": system_with(brace_angle=0.5)},
+            "system must have no braces: between them a block does not overturn",
+        ),
     ],
 )
 def test_bad_input_is_refused_in_one_line(options, message):
     with pytest.raises((TypeError, ValueError), match=re.escape(message)) as told:
-        rk.overturning_amplitude(**options)
+        rk.overturning_amplitude(**{"system": system_with(restitution=0.9)} | options)
     assert "\n" not in str(told.value)

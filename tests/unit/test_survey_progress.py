@@ -11,17 +11,18 @@ from rocking.model.progress import Bar
 from rocking.model.text import percent
 from rocking.survey import run_survey
 from rocking.survey.run_survey import count_when_done
+from surveyed import system_with
 
 ASKED = {
+    "system": system_with(restitution=0.9),
     "amplitude": np.linspace(0.0, 16.0, 80),
     "period": np.linspace(0.2, 3.0, 80),
-    "restitution": 0.9,
     "max_cycles": 40,
 }
 
 
 def test_bar_says_the_cost_and_ends_with_the_shares(terminal, tmp_path):
-    found = rk.parametric_map(**ASKED, progress=True, store=tmp_path / "map.zarr")
+    found = rk.parametric_map(**ASKED, progress=True, store=tmp_path / "map.zarr").dataset
     title, last = terminal()
     assert re.fullmatch(r"6,400 points in 13 tiles, (about|more than) [\d.]+ s on \d+ cores?", title)
     assert re.match(r"\[#{20}\] 100 % in 0:00:\d\d, [\d,]+ points/s: ", last)
@@ -50,7 +51,7 @@ def test_log_holds_nothing_about_a_short_survey(capsys):
 
 def test_sample_that_takes_too_long_gives_a_lower_bound(terminal, monkeypatch):
     monkeypatch.setattr(run_survey, "MAX_SECONDS", 0.0)
-    asked = ASKED | {"restitution": 1.0, "max_cycles": 10_000}
+    asked = ASKED | {"system": system_with(restitution=1.0), "max_cycles": 10_000}
     rk.parametric_map(**asked, progress=True)
     title, _ = terminal()
     assert ", more than " in title

@@ -26,12 +26,13 @@ from rocking.survey.store_access import ROOT
 from rocking.survey.store_access import lock as lock_of_store
 from rocking.survey.store_layout import check_same
 from rocking.survey.zarr_files import Files
+from surveyed import system_with
 
 SIZE = 130
 ASKED = {
+    "system": system_with(restitution=0.9),
     "amplitude": np.linspace(0.0, 16.0, SIZE),
     "period": np.linspace(0.2, 3.0, SIZE),
-    "restitution": 0.9,
     "max_cycles": 40,
 }
 
@@ -39,7 +40,7 @@ ASKED = {
 @pytest.fixture(scope="module")
 def plain():
     """The map in memory."""
-    return rk.parametric_map(**ASKED)
+    return rk.parametric_map(**ASKED).dataset
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +77,7 @@ def files(folder):
 
 
 def test_map_from_a_store_is_the_map_in_memory(plain, made):
-    kept = rk.parametric_map(**ASKED, store=made)
+    kept = rk.parametric_map(**ASKED, store=made).dataset
     assert kept.load().equals(plain)
     assert {name: kept.attrs[name] for name in plain.attrs} == plain.attrs
 
@@ -125,7 +126,7 @@ def test_every_point_is_computed_once(tmp_path, computed):
 
 def test_block_that_never_moves_leaves_a_store_that_is_done(tmp_path, computed):
     asked = ASKED | {"amplitude": np.linspace(0.0, 0.9, 20), "store": tmp_path / "map.zarr"}
-    assert (rk.parametric_map(**asked).kind == 0).all()
+    assert (rk.parametric_map(**asked).dataset.kind == 0).all()
     rk.parametric_map(**asked)
     assert computed() == 20 * SIZE
 
@@ -133,10 +134,10 @@ def test_block_that_never_moves_leaves_a_store_that_is_done(tmp_path, computed):
 def test_longer_axes_extend_it(copied, computed):
     longer = {name: np.append(ASKED[name], ASKED[name][-1] + step * np.arange(1, 31)) for name, step in
               (("amplitude", 16.0 / (SIZE - 1)), ("period", 2.8 / (SIZE - 1)))}  # fmt: skip
-    extended = rk.parametric_map(**(ASKED | longer), store=copied).load()
+    extended = rk.parametric_map(**(ASKED | longer), store=copied).dataset.load()
     assert computed() == (SIZE + 30) ** 2 - SIZE**2
-    assert extended.equals(rk.parametric_map(**(ASKED | longer)))
-    again = rk.parametric_map(**(ASKED | longer), store=copied)
+    assert extended.equals(rk.parametric_map(**(ASKED | longer)).dataset)
+    again = rk.parametric_map(**(ASKED | longer), store=copied).dataset
     assert computed() == 2 * (SIZE + 30) ** 2 - SIZE**2
     assert again.load().equals(extended)
 
@@ -145,7 +146,7 @@ def test_axis_made_longer_that_rounds_otherwise_keeps_the_values_there(copied, c
     spacing = ASKED["period"][1] - ASKED["period"][0]
     longer = np.linspace(0.2, 3.0 + 4 * spacing, SIZE + 4)
     assert (longer[:SIZE] != ASKED["period"]).any()
-    extended = rk.parametric_map(**(ASKED | {"period": longer}), store=copied)
+    extended = rk.parametric_map(**(ASKED | {"period": longer}), store=copied).dataset
     assert computed() == 4 * SIZE
     assert np.array_equal(extended.period[:SIZE], ASKED["period"])
 
@@ -155,18 +156,18 @@ def test_half_the_spacing_refines_it(copied, computed, plain):
         "amplitude": np.linspace(0.0, 16.0, 2 * SIZE - 1),
         "period": np.linspace(0.2, 3.0, 2 * SIZE - 1),
     }
-    refined = rk.parametric_map(**(ASKED | closer), store=copied).load()
+    refined = rk.parametric_map(**(ASKED | closer), store=copied).dataset.load()
     assert computed() == (2 * SIZE - 1) ** 2 - SIZE**2
     assert refined.isel(amplitude=slice(None, None, 2), period=slice(None, None, 2)).equals(plain)
-    assert level(copied, 3).load().equals(rk.parametric_map(**(ASKED | closer)))
+    assert level(copied, 3).load().equals(rk.parametric_map(**(ASKED | closer)).dataset)
     assert level(copied, 2).load().equals(plain)
 
 
 def test_one_axis_alone_is_refined_and_extended_at_once(copied, computed):
     changed = {"amplitude": np.linspace(0.0, 32.0, 4 * (SIZE - 1) + 1)}
-    found = rk.parametric_map(**(ASKED | changed), store=copied).load()
+    found = rk.parametric_map(**(ASKED | changed), store=copied).dataset.load()
     assert computed() == 4 * (SIZE - 1) * SIZE + SIZE - SIZE**2
-    assert found.equals(rk.parametric_map(**(ASKED | changed)))
+    assert found.equals(rk.parametric_map(**(ASKED | changed)).dataset)
 
 
 @pytest.mark.parametrize("step", [0, 1, 2, 7])
@@ -182,7 +183,9 @@ def test_extension_killed_between_its_steps_is_taken_up(copied, monkeypatch, ste
         patch.setattr(zarr.Array, "resize", killed)
         with pytest.raises(ZeroDivisionError):
             rk.parametric_map(**longer, store=copied)
-    assert rk.parametric_map(**longer, store=copied).load().equals(rk.parametric_map(**longer))
+    assert (
+        rk.parametric_map(**longer, store=copied).dataset.load().equals(rk.parametric_map(**longer).dataset)
+    )
 
 
 @pytest.mark.parametrize(
@@ -335,12 +338,12 @@ def test_full_disk_while_a_store_is_made_is_said_once(tmp_path, monkeypatch, cap
             rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
     gc.collect()
     assert not caplog.records, "of a task that was left alone asyncio tells"
-    assert rk.parametric_map(**ASKED, store=tmp_path / "map.zarr").load().equals(plain)
+    assert rk.parametric_map(**ASKED, store=tmp_path / "map.zarr").dataset.load().equals(plain)
 
 
 def test_damaged_coordinate_is_written_again(copied, plain):
     (copied / "level-2" / "period" / "c" / "0").write_bytes(b"no number")
-    assert rk.parametric_map(**ASKED, store=copied).load().equals(plain)
+    assert rk.parametric_map(**ASKED, store=copied).dataset.load().equals(plain)
 
 
 def test_who_interrupts_the_reading_of_a_store_is_told_that_it_is_complete(tmp_path, monkeypatch):
@@ -355,20 +358,26 @@ def test_who_interrupts_the_reading_of_a_store_is_told_that_it_is_complete(tmp_p
 
 
 STRANGERS = {
-    "another restitution": ({"restitution": 0.8}, "restitution is 0.9 there and 0.8 here"),
+    "another restitution": (
+        {"system": system_with(restitution=0.8)},
+        "restitution is 0.9 there and 0.8 here",
+    ),
     "a restitution with all its digits": (
-        {"restitution": 0.8925501432664756},
+        {"system": system_with(restitution=0.8925501432664756)},
         "restitution is 0.9 there and 0.89255 here (",
     ),
     "nearly the same restitution": (
-        {"restitution": 0.9 + 1e-9},
+        {"system": system_with(restitution=0.9 + 1e-9)},
         "restitution is 0.9 there and 0.900000001 here (",
     ),
     "more cycles, another start": (
-        {"max_cycles": 50, "angle": 0.1},
+        {"max_cycles": 50, "start": rk.State(0.1)},
         "angle is 0 there and 0.1 here; max_cycles is 40 there and 50 here",
     ),
-    "braces": ({"brace_angle": 1.0}, "brace_angle is not given there and 1 here; brace_restitution is not"),
+    "braces": (
+        {"system": system_with(restitution=0.9, brace_angle=1.0)},
+        "brace_angle is not given there and 1 here; brace_restitution is not",
+    ),
     "other axes": (
         {"period": None, "frequency": np.linspace(1.0, 2.0, 9)},
         "the axes are amplitude and period there and amplitude and frequency here",
@@ -423,7 +432,7 @@ def test_complete_store_of_another_method_or_older_format_is_read_with_a_warning
     told = outdated(copied, monkeypatch, what)
     before = files(copied)
     with pytest.warns(rk.InputWarning, match=re.escape(f"read from store {str(copied)!r}: {told}")) as warned:
-        kept = rk.parametric_map(**ASKED, store=copied)
+        kept = rk.parametric_map(**ASKED, store=copied).dataset
     assert warned[0].filename == __file__
     assert kept.load().equals(plain)
     assert kept.attrs["method"] == METHOD
@@ -557,7 +566,7 @@ def test_what_others_keep_in_a_store_is_passed_over_without_a_warning(copied, pl
         (place / "mine").mkdir()
         (place / "mine" / "notes.txt").write_text("mine")
         (place / "notes.txt").write_text("mine")
-    assert rk.parametric_map(**ASKED, store=copied).load().equals(plain)
+    assert rk.parametric_map(**ASKED, store=copied).dataset.load().equals(plain)
 
 
 def test_store_of_another_survey_is_left_as_a_killed_run_left_it(copied):
@@ -570,7 +579,7 @@ def test_store_of_another_survey_is_left_as_a_killed_run_left_it(copied):
 
 def test_link_is_followed_to_a_store_that_is_not_there_yet(tmp_path, plain):
     (tmp_path / "link").symlink_to("map.zarr")
-    assert rk.parametric_map(**ASKED, store=tmp_path / "link").load().equals(plain)
+    assert rk.parametric_map(**ASKED, store=tmp_path / "link").dataset.load().equals(plain)
     assert (tmp_path / "map.zarr" / "zarr.json").is_file()
 
 
@@ -708,7 +717,7 @@ def test_damage_is_found_named_and_mended_on_request(copied, what, name, compute
             match=f"is damaged at {re.escape(repr(str(copied / place)))} \\(recompute these tiles with repair\\)",
         ):
             rk.parametric_map(**ASKED, store=copied)
-    assert rk.parametric_map(**ASKED, store=copied, repair=True).load().equals(plain)
+    assert rk.parametric_map(**ASKED, store=copied, repair=True).dataset.load().equals(plain)
     tile = math.prod(zarr.open_array(copied / "level-2" / "kind", mode="r").chunks)
     assert computed() <= tile - (tile**0.5 // 2) ** 2
     assert files(copied) == whole
@@ -721,7 +730,9 @@ def test_damaged_store_is_not_drawn(copied, name, draw, tmp_path, monkeypatch):
     if name.startswith("level-1"):  # which serves where the finer one has nothing
         (copied / "level-2/kind/c/0/0").unlink()
     (copied / name).write_bytes(b"[]")
-    message = f"found must be the folder of a store that can be read; got {str(copied)!r}, which is damaged: "
+    message = (
+        f"result must be the folder of a store that can be read; got {str(copied)!r}, which is damaged: "
+    )
     with pytest.raises(OSError, match=re.escape(message) + "repeat the survey that made it with repair"):
         draw(copied)
     assert not Path("look").exists()
@@ -778,7 +789,11 @@ def test_damage_in_a_coarse_level_is_mended_there(copied, plain):
     assert files(copied) == whole
 
 
-OTHERS = {"restitution": 0.8}, {"amplitude": np.linspace(0.0, 8.0, SIZE)}, {"angle": 0.1}
+OTHERS = (
+    {"system": system_with(restitution=0.8)},
+    {"amplitude": np.linspace(0.0, 8.0, SIZE)},
+    {"start": rk.State(0.1)},
+)
 
 
 @pytest.fixture(scope="module")

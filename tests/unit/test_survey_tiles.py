@@ -10,7 +10,7 @@ from rocking.survey import attractors, ending_measures, measurement, verdict_mea
 from rocking.survey.attractors import classify_with_anchor
 from rocking.survey.measurement import Batch, batches, compute
 from rocking.survey.repeatability import judge as judge_repeatedly
-from rocking.survey.spec import HarmonicSpec, motion_question, pulse_question
+from rocking.survey.spec import HarmonicSpec, motion_spec, pulse_spec
 from rocking.survey.tiling import levels
 from rocking.survey.verdict_measures import classify_points, response
 
@@ -61,9 +61,9 @@ BUDGET = {"max_cycles": 100, "max_period": 8}
 NONE = np.empty(0)
 FIXED = {"restitution": 0.9}
 HARMONIC = HarmonicSpec(AXES, FIXED).inputs({"amplitude": NONE, "period": NONE})
-MOTIONS = motion_question(
+MOTIONS = motion_spec(
     rk.RecordSet(rk.synthetic_ground_motions(1, seed=1)),
-    {"size": np.array([1.0, 2.0]), "slenderness": 0.2, "angle": 0.0, "polarity": 1.0, "scale": 1.0},
+    {"size": np.array([1.0, 2.0]), "slenderness": 0.2, "angle": 0.0, "polarity": 1.0, "level": 1.0},
     intensity="scale",
 ).inputs({"size": NONE})
 EMPTY = {
@@ -74,9 +74,10 @@ EMPTY = {
     **{
         name: (
             ending_measures.pulse_ending("Pulses"),
-            pulse_question(name, AXES["amplitude"], AXES["period"], 0.9).inputs(
-                {"amplitude": NONE, "frequency": NONE}
-            ),
+            pulse_spec(
+                rk.System(rk.Pulse(name, amplitude=1.0, duration=1.0), 0.9),
+                {"amplitude": AXES["amplitude"], "frequency": AXES["period"]},
+            ).inputs({"amplitude": NONE, "frequency": NONE}),
         )
         for name in ("one-sine", "triangular")
     },

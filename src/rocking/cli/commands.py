@@ -780,7 +780,7 @@ rocking frequency-response --height 2 --width 0.5 --acceleration 4 \\
     Command(
         "orbit-diagram",
         "Compute an orbit (bifurcation) diagram.",
-        function="rocking.cli.inputs.diagram",
+        function="rocking.orbits.orbit_diagram.orbit_diagram",
         inputs="inputs.sweep",
         report="reports_orbits.ORBIT_DIAGRAM",
         progress=True,

@@ -26,14 +26,14 @@ from rocking.cli.options import (
 from rocking.model.block import Block
 from rocking.model.forcing import Harmonic, Pulse
 from rocking.model.quantity import SYSTEM_QUANTITIES
-from rocking.model.system import MODELS, Braces, State, System
+from rocking.model.system import MODELS, NO_BRACES, Braces, State, System
 from rocking.model.system import quantities as quantities_of
+from rocking.model.system import system_of as system_with
 from rocking.model.validation import NoOrbit, Refusal, whole, within
 
 if TYPE_CHECKING:
     from rocking.model.orbit import Orbit
     from rocking.orbits.branch import Branch
-    from rocking.orbits.orbit_diagram import OrbitDiagram
 
 IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
 VARIES = dict.fromkeys(AMPLITUDES, "amplitude") | {"frequency_hz": "frequency", "period_s": "period"}
@@ -330,22 +330,11 @@ def sweep(options: Options) -> Request:
         ends = ends_of(varied)
     arguments = {
         "system": varied.first,
-        "parameter": varied.parameter,
-        "values": np.linspace(*ends, axis.points),
+        varied.parameter: np.linspace(*ends, axis.points),
         "start": start_of(options),
         **own_arguments(options),
     }
     return Request(arguments, options, varied.block, varied=varied_text(varied.name, axis))
-
-
-def diagram(*, progress: bool, **arguments: Any) -> OrbitDiagram:
-    """Compute an orbit diagram, with `progress` on stderr."""
-    from rocking.model.progress import Bar
-    from rocking.orbits.orbit_diagram import orbit_diagram
-
-    total = len(arguments["values"]) * (2 if arguments["sweep"] == "both" else 1)
-    with Bar(total, "orbit diagram", shown=progress) as bar:
-        return orbit_diagram(**arguments, progress=bar.advance)
 
 
 # The displacement is absent: its amplitude of acceleration would vary with the frequency.
@@ -365,9 +354,8 @@ def frequency_response(options: Options) -> Request:
     varied = varied_of(options, Axis, AXIS_FORM)
     axis = options[varied.name]
     arguments = {
+        "system": varied.first,
         varied.parameter: np.linspace(*ends_of(varied), axis.points),
-        "amplitude": varied.first.periodic.amplitude,
-        "restitution": varied.first.restitution,
         "modes": options.get("modes", DEFAULT_MODES),
         "step": options["step"],
         "max_cycles": options["max_cycles"],
@@ -476,18 +464,29 @@ def survey_request(
     return Request(own_arguments(options) | arguments, options, block, names)
 
 
+def of_system(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the arguments of a survey of a system: the system, and the axes; the system has the first value of each."""
+    axes = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
+    first = dict(values) | {name: value[0].item() for name, value in axes.items()}
+    return {"system": system_with({"phase": 0.0, **NO_BRACES} | first)} | axes
+
+
 def parametric_map(options: Options) -> Request:
     """Return the request of a parametric map."""
-    request = survey_request(options, normalised(options))
+    values = normalised(options)
+    fixed = {name: value for name, value in values.items() if not isinstance(value, np.ndarray)}
+    start = State(**select(fixed, *START))
+    request = survey_request(options, of_system(values) | {"start": start})
     drawn = [name for name in ("curves", "symbols") if name in options]
     if drawn and "plot" not in options:
         raise InvalidInput(f"{option(drawn[0])} needs a plot: give --plot FILE as well")
     if drawn:
         from rocking.plot import style, theory_curves
-        from rocking.survey.spec import question as spec_of
+        from rocking.survey.spec import harmonic_spec
 
         with refusals(request.names):
-            spec = spec_of(request.arguments, 2, "a parametric map")
+            axes = select(request.arguments, *SURVEYED)
+            spec = harmonic_spec(fixed, axes, 2, "a parametric map")
             style.check_symbols(options.get("symbols"))
             theory_curves.check(options.get("curves", ()), spec.axes, spec.fixed)
     return request
@@ -512,9 +511,8 @@ def safe_basin(options: Options) -> Request:
     """Return the request of a safe basin."""
     numbers = normalised({name: value for name, value in options.items() if name not in START})
     reach = min(numbers.get("brace_angle", 1.0), 1.0)
-    system = {name: value for name, value in numbers.items() if name not in START}
     starts = {"angle": (-reach, reach)} | select(options, *START)
-    return survey_request(options, system | starts)
+    return survey_request(options, of_system(numbers) | select(numbers, "amplitude") | starts)
 
 
 def overturning(options: Options) -> Request:
@@ -536,16 +534,9 @@ def overturning(options: Options) -> Request:
         raise InvalidInput(
             f"--plot needs a single axis; got {' and '.join(map(option, varied))} (give one of them as a number)"
         )
-    names = ("period", "frequency", "restitution", "amplitude", "critical_angle")
-    if not in_si:
-        return survey_request(
-            options, {name: values_of(value) for name, value in select(options, *names).items()}
-        )
     scanned = any(name in options for name in AMPLITUDES)
-    numbers = normalised(options if scanned else {**options, "acceleration": 0.0})
-    return survey_request(
-        options, select(numbers, *(name for name in names if scanned or name != "amplitude"))
-    )
+    ignored = {} if scanned else {"acceleration" if in_si else "amplitude": 0.0}
+    return survey_request(options, of_system(normalised({**options, **ignored})))
 
 
 def overturning_spectrum(options: Options) -> Request:
@@ -566,7 +557,9 @@ def overturning_spectrum(options: Options) -> Request:
         if "plot" in options and not isinstance(options.get(name, 0.0), int | float):
             raise InvalidInput(f"--plot needs one value of {option(name)}; got an axis (give a number)")
     numbers = normalised({name: value for name, value in options.items() if name != "pulse"})
-    names = ("amplitude", "frequency", "restitution", "critical_angle")
-    request = survey_request(options, {"kind": options["pulse"]} | select(numbers, *names))
-    request.names["kind"] = "--pulse"
-    return request
+    axes = {name: value for name, value in numbers.items() if isinstance(value, np.ndarray)}
+    own = {name: value.item(0) if name in axes else value for name, value in numbers.items()}
+    with refusals({"kind": "--pulse"}):
+        pulse = Pulse(options["pulse"], amplitude=1.0, duration=1.0)
+    system = System(pulse, own["restitution"], critical_angle=own.get("critical_angle"))
+    return survey_request(options, {"system": system} | axes)

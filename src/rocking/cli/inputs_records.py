@@ -144,8 +144,8 @@ def digest(path: Path) -> str | None:
     return None
 
 
-def scaled_records(options: Options, argument: str) -> Request:
-    """Return the request of a function of records, a block and levels, which has this `argument` for the levels."""
+def scaled_records(options: Options) -> Request:
+    """Return the request of a function of records, a block and levels."""
     measures = [name for name in LEVELS if name in options]
     if len(measures) != 1:
         got = " and ".join(map(option, measures)) or "none"
@@ -163,32 +163,32 @@ def scaled_records(options: Options, argument: str) -> Request:
     arguments = {
         "records": records,
         "block": block,
-        argument: values_of(options[measure]),
+        "levels": values_of(options[measure]),
         "intensity": measure.replace("_", "-"),
         **others,
         **select(options, "model"),
     }
-    names = {"records": "SOURCE", argument: option(measure)}
+    names = {"records": "SOURCE", "levels": option(measure)}
     return Request(arguments, options, block, names, sentences, records=records)
 
 
 def overturning_set(options: Options) -> Request:
     """Return the request of an overturning set."""
-    request = scaled_records(options, "scales")
+    request = scaled_records(options)
     request.arguments.update(select(options, "angle"))
     return request
 
 
 def sensitivity(options: Options) -> Request:
     """Return the request of the sensitivity of verdicts."""
-    request = scaled_records(options, "levels")
+    request = scaled_records(options)
     request.names["block"] = "the block"
     return request
 
 
 def fragility(options: Options) -> Request:
     """Return the request of a fragility."""
-    request = scaled_records(options, "levels")
+    request = scaled_records(options)
     arguments = request.arguments
     arguments["levels"] = np.atleast_1d(arguments["levels"])
     arguments["limits"] = arguments.pop("limit", ())
@@ -204,16 +204,18 @@ def spectrum(options: Options) -> Request:
     arguments = {
         name: values_of(value)
         for name, value in select(
-            options, "size", "restitution", "inertia_ratio", "scale", "model", "repair", "store"
+            options, "size", "restitution", "inertia_ratio", "model", "repair", "store"
         ).items()
     }
     if "scale" in options and "pga_g" in options:
         raise InvalidInput("give --scale or --pga-g, not both")
+    if "scale" in options:
+        arguments["levels"] = values_of(options["scale"])
     if "pga_g" in options:
-        arguments |= {"scale": values_of(options["pga_g"]), "intensity": "pga-g"}
+        arguments |= {"levels": values_of(options["pga_g"]), "intensity": "pga-g"}
     arguments |= shape(options)
     names = {
-        "scale": option("pga_g" if "pga_g" in options else "scale"),
+        "levels": option("pga_g" if "pga_g" in options else "scale"),
         "slenderness": "--slenderness-deg, in rad,",
         "records": "SOURCE",
     }
@@ -261,7 +263,7 @@ def check_plot(arguments: Mapping[str, Any], names: Mapping[str, str], records: 
     from rocking.plot.rocking_spectra import MOST_SLENDERNESSES
 
     varied = {name for name, value in arguments.items() if np.ndim(value)}
-    for name in ("scale", "restitution"):
+    for name in ("levels", "restitution"):
         if name in varied:
             raise InvalidInput(
                 f"--plot needs one value of {names.get(name, option(name))}; got an axis (give a number)"

@@ -75,6 +75,7 @@ def reworded(text: str) -> str:
 
 WORDS = {
     "two quantities as arrays": f"two quantities as axes, {AXIS_FORM}",
+    "the others are those of the system": "give the others as numbers",
     "be an array if nothing else varies": f"be an axis, {AXIS_FORM}, if nothing else varies",
     "be a pair (low, high)": f"be a range, {RANGE_FORM},",
     "with low < high": "with START < STOP",

@@ -165,6 +165,11 @@ def _nothing(*_: Any) -> dict[str, Any]:
     return {}
 
 
+def of_dataset(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function of a result that passes its dataset to a given function."""
+    return lambda result, *arguments: function(result.dataset, *arguments)
+
+
 @frozen
 class Report:
     """How a result is printed and written. Each function takes what the command computed and its request.

@@ -158,11 +158,11 @@ CONTINUE = Report(
 
 def response_text(result: FrequencyResponse, request: Request) -> Text:
     """Return the branches, one row for each."""
-    block = request.block
+    block, amplitude = request.block, result.system.periodic.amplitude
     rows = [
         ("varied", request.varied, in_si(result.parameter, result.values[[0, -1]], block)),
-        ("amplitude", f"A = {result.amplitude:.6g}", in_si("amplitude", result.amplitude, block)),
-        ("restitution", f"e = {result.restitution:.6g}", ""),
+        ("amplitude", f"A = {amplitude:.6g}", in_si("amplitude", amplitude, block)),
+        ("restitution", f"e = {result.system.restitution:.6g}", ""),
     ]
     branches = ["", *aligned([*response_rows(result, block)])] if result.branches else []
     return Text(str(result), rows, [*branches, *warning_lines(response_warnings(result, block))])
@@ -204,7 +204,7 @@ def largest(branch: Branch) -> tuple[float, float]:
 
 def response_warnings(result: FrequencyResponse, block: Block | None) -> list[str]:
     """Return the warnings about the block."""
-    return block_warnings(block, result.amplitude, result.restitution)
+    return block_warnings(block, result.system.periodic.amplitude, result.system.restitution)
 
 
 FREQUENCY_RESPONSE = Report(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.cli.output import Report, Row, Table, Text, write_dataset
+from rocking.cli.output import Report, Row, Table, Text, of_dataset, write_dataset
 from rocking.cli.reports import (
     MAX_ROWS,
     axes_record,
@@ -21,8 +21,9 @@ from rocking.cli.reports import (
 )
 from rocking.model.record_results import Fragility, OverturningSet, Sensitivity, limit_name
 from rocking.model.record_set import RecordSet
+from rocking.model.table import counts
 from rocking.model.text import counted, percent, percent_with_ends
-from rocking.survey.export import counts, tables
+from rocking.survey.export import tables
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +40,7 @@ def with_equation(result: Any, rows: Iterable[Row], title: str, sentences: Itera
 # Rocking spectrum.
 
 
-VARYING = ("size", "slenderness", "restitution", "scale")
+VARYING = ("size", "slenderness", "restitution", "level")
 
 
 MOST_NAMES = 3
@@ -76,10 +77,10 @@ def spectrum_rows(data: xr.Dataset, records: RecordSet) -> Iterator[Row]:
     )
     yield "records", f"{len(records)}: {names}"
     if data.attrs["intensity"] == "pga-g":
-        yield "scaled to", f"PGA {range_text(values(data, 'scale'))} g"
+        yield "scaled to", f"PGA {range_text(values(data, 'level'))} g"
     else:
         pga = np.array([motion.pga for motion in records])
-        yield "PGA", f"{range_text(pga)} m/s², times {range_text(values(data, 'scale'))}"
+        yield "PGA", f"{range_text(pga)} m/s², times {range_text(values(data, 'level'))}"
     yield "size R", f"{range_text(values(data, 'size'))} m"
     yield "critical angle", f"{range_text(np.degrees(values(data, 'slenderness')))}°"
     widest, full = float(values(data, "slenderness").max()), data.attrs["model"] == "full"
@@ -170,11 +171,11 @@ def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
 
 
 SPECTRUM = Report(
-    spectrum_text,
-    figure=lambda plot, data, _: plot.rocking_spectrum(data),
-    rows=spectrum_tables,
-    entries=spectrum_record,
-    netcdf=lambda data, _, path: write_dataset(data.load(), path),
+    of_dataset(spectrum_text),
+    figure=lambda plot, result, _: plot.rocking_spectrum(result),
+    rows=of_dataset(spectrum_tables),
+    entries=of_dataset(spectrum_record),
+    netcdf=lambda result, _, path: write_dataset(result.dataset.load(), path),
 )
 
 
@@ -212,7 +213,7 @@ def fragility_warnings(result: Fragility, request: Request) -> Iterator[str]:
 
 def level_heading(result: Fragility, *brackets: str) -> str:
     """Return symbol and unit of the levels."""
-    attributes = result.dataset.scale.attrs
+    attributes = result.dataset.level.attrs
     unit = "" if attributes["units"] in ("", "1") else f" {brackets[0]}{attributes['units']}{brackets[1]}"
     return f"{attributes['symbol']}{unit}"
 
@@ -222,7 +223,7 @@ def fragility_rows(result: Fragility) -> Iterator[Row]:
     data = result.dataset
     limits = data.limit.values.tolist()
     yield (level_heading(result, "(", ")"), *(limit_heading(result, limit) for limit in limits))
-    for place, level in enumerate(data.scale.values.tolist()):
+    for place, level in enumerate(data.level.values.tolist()):
         yield (
             f"{level:.4g}",
             *(

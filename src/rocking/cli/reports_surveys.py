@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.cli.options import SURVEYED
-from rocking.cli.output import Report, Row, Text, with_block, write_dataset
+from rocking.cli.output import Report, Row, Text, of_dataset, with_block, write_dataset
 from rocking.cli.reports import (
     MAX_ROWS,
     angle_warning,
@@ -27,9 +27,10 @@ from rocking.model.block_formulas import GRAVITY
 from rocking.model.quantity import IN_SI
 from rocking.model.survey_results import BasinMap, OverturningCurve, SafeBasin
 from rocking.model.system import System
+from rocking.model.table import counts
 from rocking.model.text import counted, percent
 from rocking.model.verdict import Criterion, Outcome
-from rocking.survey.export import counts, tables, to_netcdf
+from rocking.survey.export import tables, to_netcdf
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -107,16 +108,16 @@ def map_record(data: xr.Dataset, _: Request) -> dict[str, Any]:
 
 
 MAP = Report(
-    map_text,
-    figure=lambda plot, data, request: plot.parametric_map(
-        data,
+    of_dataset(map_text),
+    figure=lambda plot, result, request: plot.parametric_map(
+        result,
         block=request.block,
         **{name: request.options[name] for name in DRAWN if name in request.options},
     ),
-    more=data_in_si,
-    rows=lambda data, request: tables(data, request.block),
-    entries=map_record,
-    netcdf=lambda data, request, path: to_netcdf(with_block(data, request.block), path),
+    more=of_dataset(data_in_si),
+    rows=lambda result, request: tables(result.dataset, request.block),
+    entries=of_dataset(map_record),
+    netcdf=lambda result, request, path: to_netcdf(with_block(result.dataset, request.block), path),
 )
 
 
@@ -389,9 +390,11 @@ def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
 
 
 OVERTURNING_SPECTRUM = Report(
-    spectrum_text,
-    figure=lambda plot, data, request: plot.overturning_spectrum(data, block=request.block),
-    rows=lambda data, request: tables(data, request.block),
-    entries=spectrum_record,
-    netcdf=lambda data, request, path: write_dataset(with_block(data.load(), request.block), path),
+    of_dataset(spectrum_text),
+    figure=lambda plot, result, request: plot.overturning_spectrum(result, block=request.block),
+    rows=lambda result, request: tables(result.dataset, request.block),
+    entries=of_dataset(spectrum_record),
+    netcdf=lambda result, request, path: write_dataset(
+        with_block(result.dataset.load(), request.block), path
+    ),
 )

@@ -299,13 +299,16 @@ def diagram(shown: ViewState, stop: np.ndarray) -> tuple[Columns, Ranges]:
         if math.isinf(hits):
             return nothing, ranges
     share = min(LATER_HITS / (hits * VALUES * (TRANSIENT + KEPT)), 1.0)
-    lengths = int(share * TRANSIENT), max(int(share * KEPT), 1)
+    settle, record = int(share * TRANSIENT), max(int(share * KEPT), 1)
+    arguments: dict[str, Any] = {"sweep": "rest", "transient": settle, "cycles": record}
     pieces = []
-    for piece in np.array_split(values, min(math.ceil(hits * VALUES * sum(lengths) / PIECE_HITS), VALUES)):
+    for piece in np.array_split(
+        values, min(math.ceil(hits * VALUES * (settle + record) / PIECE_HITS), VALUES)
+    ):
         if stop[0]:
             raise CancelledError
         try:
-            found = orbit_diagram(shown.system, shown.vary, piece, start, "rest", *lengths)
+            found = orbit_diagram(shown.system, start, **arguments | {shown.vary: piece})
         except TooManyEvents:
             return nothing, ranges
         pieces.append(found.points[0, :, :, 0])

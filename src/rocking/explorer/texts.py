@@ -153,11 +153,12 @@ def python(shown: ViewState) -> str:
         "print(rk.classify(system, start))",
         f"motion = rk.simulate(system, start, cycles={shown.first + shown.cycles})",
         f"basin = rk.basin_map(system, angle={_axis(shown.angles)}, velocity={_axis(shown.velocities)}, boundary_runs=0)",
-        f"diagram = rk.orbit_diagram(system, {shown.vary!r}, {_axis(shown.varied)}, start)",
+        f"diagram = rk.orbit_diagram(system, start, {shown.vary}={_axis(shown.varied)})",
         "found = rk.parametric_map(",
+        "    system,",
+        "    start,",
         f"    amplitude={_axis(shown.amplitudes)},",
         f"    period={_axis(shown.periods)},",
-        "    " + ", ".join(f"{name}={value!r}" for name, value in shown.fixed.items()) + ",",
         ")",
     ]
     if shown.block is not None:

@@ -176,7 +176,8 @@ class ProvedShare(Result):
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.parametric_map(amplitude=[2.0, 3.0], period=[0.5, 1.0], restitution=0.925)
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.parametric_map(system, amplitude=[2.0, 3.0], period=[0.5, 1.0])
     >>> print(rk.proved_share(found))
     4 periodic responses; orbits proved: 100 % (51.0–100 %); initial states proved: 100 % (51.0–100 %)
     """

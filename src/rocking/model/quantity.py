@@ -297,8 +297,8 @@ SIZES = (1e-3, 1e3)
 SIZE = Quantity("size", "R", "distance from a corner to the centre of mass", SIZES, "m", "m")
 SLENDERNESS = Quantity("slenderness", "θcr", "critical angle", (1e-4, 1.57), "rad", "rad")
 POLARITY = Quantity("polarity", "±", "direction of the ground motion", (-1.0, 1.0))
-SCALE = Quantity("scale", "s", "factor of the ground motion", (1e-9, 1e6))
-RUN_QUANTITIES = {each.name: each for each in (SIZE, SLENDERNESS, RESTITUTION, ANGLE, POLARITY, SCALE)}
+LEVEL = Quantity("level", "s", "factor of the ground motion", (1e-9, 1e6))
+RUN_QUANTITIES = {each.name: each for each in (SIZE, SLENDERNESS, RESTITUTION, ANGLE, POLARITY, LEVEL)}
 """Quantities of runs under ground motions, in the order of the dimensions; records come first."""
 
 

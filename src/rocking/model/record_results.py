@@ -119,14 +119,14 @@ class Fragility(Result):
     Attributes
     ----------
     dataset : xarray.Dataset
-        Variables over `limit` (|Θ|; infinite: overturning) and `scale` (the level of the intensity measure):
+        Variables over `limit` (|Θ|; infinite: overturning) and `level` (of the intensity measure):
 
         - `fraction` with the ends `fraction_low` and `fraction_high` of its 95 % interval;
         - `effective_records`, the number of independent records behind the interval;
         - `fit` with the ends `fit_low` and `fit_high` of its band, NaN if there is no fit.
 
-        Variable over `scale`: `rocking`, the fraction of the runs that rock. Variables of the runs, over `record`,
-        `sample` (of an uncertain block) and `scale`: `peak`, `outcome` and `certified`.
+        Variable over `level`: `rocking`, the fraction of the runs that rock. Variables of the runs, over `record`,
+        `sample` (of an uncertain block) and `level`: `peak`, `outcome` and `certified`.
     block : Block
         Nominal block.
     fits : tuple of LognormalFit
@@ -139,11 +139,11 @@ class Fragility(Result):
     >>> records = rk.synthetic_ground_motions(8, seed=1)
     >>> found = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 17), limits=())
     >>> found.dataset.fraction.dims, found.fit().limit
-    (('limit', 'scale'), inf)
+    (('limit', 'level'), inf)
     """
 
     PLOT = "fragility"
-    LONG = ("record_scale", "record_sample_scale")
+    LONG = ("record_level", "record_sample_level")
 
     dataset: xr.Dataset = field(repr=False)
     block: Block
@@ -156,7 +156,7 @@ class Fragility(Result):
         data = (
             self.dataset[curves].assign(along("limit", columns)).merge(self.dataset, combine_attrs="override")
         )
-        return data.assign_attrs(unit=data.scale.attrs["units"], undecided=int((data.certified == 0).sum()))
+        return data.assign_attrs(unit=data.level.attrs["units"], undecided=int((data.certified == 0).sum()))
 
     def fit(self, limit: float = math.inf) -> LognormalFit:
         """Return the fit of a limit.
@@ -186,9 +186,9 @@ class Fragility(Result):
 
     def __str__(self) -> str:
         data = self.dataset
-        unit = data.scale.attrs.get("units", "1")
+        unit = data.level.attrs.get("units", "1")
         last = self.fits[-1].described("" if unit == "1" else unit)
-        return f"{limit_name(self.fits[-1].limit)} over {data.scale.attrs['symbol']}: {last}; {runs_of(data)}"
+        return f"{limit_name(self.fits[-1].limit)} over {data.level.attrs['symbol']}: {last}; {runs_of(data)}"
 
 
 def limit_name(limit: float) -> str:
@@ -201,7 +201,7 @@ def runs_of(data: Any) -> str:
     parts = [counted(data.sizes.get("record", 1), "record")]
     if "sample" in data.sizes:
         parts.append(f"{counted(data.sizes['sample'], 'block')} per record")
-    parts.append(counted(data.sizes["scale"], "level"))
+    parts.append(counted(data.sizes["level"], "level"))
     undecided = int((data.certified == 0).sum())
     doubt = f", {undecided:,} undecided" if undecided else ""
     return f"{', '.join(parts)}, {counted(data.peak.size, 'run')}{doubt}"
@@ -218,7 +218,7 @@ class IncrementalDynamicAnalysis(Result):
     Attributes
     ----------
     dataset : xarray.Dataset
-        Variables over `record` and `scale` (the level of the intensity measure): `peak`, the largest |Θ|, infinite where the
+        Variables over `record` and `level` (of the intensity measure): `peak`, the largest |Θ|, infinite where the
         block overturns; `outcome`; `certified`, 0 where rounding may have changed the outcome; `margin` and `impacts`.
     block : Block
         Block.
@@ -228,12 +228,12 @@ class IncrementalDynamicAnalysis(Result):
     >>> import rocking as rk
     >>> records = rk.synthetic_ground_motions(5, seed=1)
     >>> found = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), [1.0, 2.0, 4.0])
-    >>> found.fractiles().sizes["fractile"], bool(found.fractiles([0.5]).isel(scale=-1).item() == float("inf"))
+    >>> found.fractiles().sizes["fractile"], bool(found.fractiles([0.5]).isel(level=-1).item() == float("inf"))
     (3, True)
     """
 
     PLOT = "incremental_dynamic_analysis"
-    LONG = ("record_scale",)
+    LONG = ("record_level",)
 
     dataset: xr.Dataset = field(repr=False)
     block: Block
@@ -252,7 +252,7 @@ class IncrementalDynamicAnalysis(Result):
         Returns
         -------
         xarray.DataArray
-            Peaks |Θ| over `fractile` and `scale`.
+            Peaks |Θ| over `fractile` and `level`.
 
         Raises
         ------
@@ -262,14 +262,14 @@ class IncrementalDynamicAnalysis(Result):
         import xarray as xr
 
         fractions = checked_fractions("of", of)
-        peaks = np.sort(self.dataset.peak.transpose("record", "scale").values, axis=0)
+        peaks = np.sort(self.dataset.peak.transpose("record", "level").values, axis=0)
         # 0.07 · 100 is 7.000000000000001 in double precision
         places = np.ceil(fractions * len(peaks) - ROUNDING).astype(int) - 1
         attributes = {"long_name": "largest absolute angle in units of theta_cr", "units": "1"}
         return xr.DataArray(
             peaks[places],
-            {"fractile": ("fractile", fractions), "scale": self.dataset.scale},
-            ("fractile", "scale"),
+            {"fractile": ("fractile", fractions), "level": self.dataset.level},
+            ("fractile", "level"),
             "peak",
             attributes,
         )
@@ -287,11 +287,11 @@ class IncrementalDynamicAnalysis(Result):
         with np.errstate(divide="ignore", invalid="ignore"):
             found = 0.5 * np.log(high / np.where((low > 0.0) & np.isfinite(low), low, np.nan))
         attributes = {"long_name": "record-to-record scatter of ln peak", "units": "1"}
-        return xr.DataArray(found, {"scale": self.dataset.scale}, ("scale",), "scatter", attributes)
+        return xr.DataArray(found, {"level": self.dataset.level}, ("level",), "scatter", attributes)
 
     def __str__(self) -> str:
         data = self.dataset
-        fell = np.isinf(data.peak.values).any(axis=data.peak.get_axis_num("scale"))
+        fell = np.isinf(data.peak.values).any(axis=data.peak.get_axis_num("level"))
         first = np.isinf(self.fractiles([0.5]).values[0])
         median = f"no level overturns half of them up to {_level(data, -1)}"
         if first.any():
@@ -308,8 +308,8 @@ def checked_fractions(name: str, values: Any) -> np.ndarray:
 
 
 def _level(data: Any, place: int) -> str:
-    unit = data.scale.attrs.get("units", "1")
-    return f"{data.scale.attrs['symbol']} = {float(data.scale[place]):.4g}{'' if unit == '1' else ' ' + unit}"
+    unit = data.level.attrs.get("units", "1")
+    return f"{data.level.attrs['symbol']} = {float(data.level[place]):.4g}{'' if unit == '1' else ' ' + unit}"
 
 
 SWITCH_ROW = np.dtype(
@@ -347,7 +347,7 @@ class OverturningSet(Result):
     Attributes
     ----------
     dataset : xarray.Dataset
-        Variables over `record` and `scale`, the levels of the grid: `outcome`, `certified` and `impacts_since_rest`. Over
+        Variables over `record` and `level`, the levels of the grid: `outcome`, `certified` and `impacts_since_rest`. Over
         `record`: `lowest` and `share`. Over `switch`: the columns of `switches`, with the prefix ``switch_``.
     records : RecordSet
         Ground motions.
@@ -365,7 +365,7 @@ class OverturningSet(Result):
     """
 
     PLOT = "overturning_set"
-    LONG = ("record_scale",)
+    LONG = ("record_level",)
 
     dataset: xr.Dataset = field(repr=False)
     records: RecordSet
@@ -392,7 +392,7 @@ class OverturningSet(Result):
         return first.merge(data, combine_attrs="override").assign_attrs(facts)
 
     def _summary(self) -> xr.Dataset:
-        return self._data().assign_attrs(levels=self.scales.tolist())
+        return self._data().assign_attrs(levels=self.levels.tolist())
 
     @property
     def measure(self) -> Intensity:
@@ -400,14 +400,14 @@ class OverturningSet(Result):
         return intensity_of(self.dataset.attrs["intensity"], self.records)[0]
 
     @property
-    def scales(self) -> np.ndarray:
+    def levels(self) -> np.ndarray:
         """Levels of the grid, shape (n_levels,)."""
-        return np.asarray(self.dataset["scale"].values)
+        return np.asarray(self.dataset["level"].values)
 
     @property
     def spacing(self) -> float:
         """Largest distance between two neighbouring levels. Intervals and gaps that are narrower may be missed."""
-        return float(np.diff(self.scales).max())
+        return float(np.diff(self.levels).max())
 
     @property
     def overturned(self) -> np.ndarray:
@@ -484,7 +484,7 @@ class OverturningSet(Result):
         """
         record = whole("record", record, 0, len(self.records) - 1)
         own = self.switches[self.switches["record"] == record]
-        return intervals_of(bool(self.overturned[record, 0]), own, self.scales[0], self.scales[-1])
+        return intervals_of(bool(self.overturned[record, 0]), own, self.levels[0], self.levels[-1])
 
     def motion(self, record: int, level: float) -> GroundMotion:
         """Return a ground motion scaled to a level, exactly as the survey scales it.
@@ -523,11 +523,11 @@ class OverturningSet(Result):
         return ground.reversed() if self.dataset.attrs["polarity"] < 0 else ground
 
     def __str__(self) -> str:
-        low, high = self.scales[[0, -1]]
+        low, high = self.levels[[0, -1]]
         count = self.dataset.sizes["switch"]
         unit = "" if self.measure.unit in ("1", "") else f" {self.measure.unit}"
         start = (
-            f"{counted(len(self.records), 'record')}, {self.scales.size:,} levels of {self.measure.symbol} from {low:.6g} "
+            f"{counted(len(self.records), 'record')}, {self.levels.size:,} levels of {self.measure.symbol} from {low:.6g} "
             f"to {high:.6g}{unit}: {count:,} switch{'es' * (count != 1)}; "
         )
         if np.isnan(self.lowest).all():
@@ -552,7 +552,7 @@ class Sensitivity(Result):
         - `share_low`, `share_high`: ends of its 95 % interval;
         - `flipped`, `runs`, `undecided`: numbers of runs.
 
-        Variables over `record` and `scale`: `overturned`, the verdict without a change, and, also over `change`, `differs`.
+        Variables over `record` and `level`: `overturned`, the verdict without a change, and, also over `change`, `differs`.
     block : Block
         Block.
 
@@ -564,14 +564,14 @@ class Sensitivity(Result):
     (('change',), 10)
     """
 
-    LONG = ("record_scale", "record_scale_change")
+    LONG = ("record_level", "record_level_change")
 
     dataset: xr.Dataset = field(repr=False)
     block: Block
 
     def _summary(self) -> xr.Dataset:
         """Return the dataset with the levels, and the number of runs that overturn, as attributes."""
-        levels, fell = self.dataset.scale, int(self.dataset.overturned.sum())
+        levels, fell = self.dataset.level, int(self.dataset.overturned.sum())
         return self.dataset.assign_attrs(
             levels=levels.values.tolist(), unit=levels.attrs["units"], overturned=fell
         )

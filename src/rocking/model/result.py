@@ -193,7 +193,8 @@ class Result:
         Examples
         --------
         >>> import rocking as rk
-        >>> found = rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=100)
+        >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.925)
+        >>> found = rk.safe_basin(system, amplitude=[0.2, 0.5], samples=100)
         >>> list(found.tables()["amplitude"])[:4]
         ['amplitude [g theta_cr]', 'period [1/alpha]', 'restitution', 'phase [rad]']
         """
@@ -225,7 +226,8 @@ class Result:
         Examples
         --------
         >>> import rocking as rk
-        >>> found = rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=100)
+        >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.925)
+        >>> found = rk.safe_basin(system, amplitude=[0.2, 0.5], samples=100)
         >>> found.to_dataframe()["safe"].tolist()
         [0.55, 0.55]
         """

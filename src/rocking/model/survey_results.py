@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from attrs import field, frozen
 
 from rocking.model.orbit import Orbit
 from rocking.model.quantity import LOWEST
-from rocking.model.result import Result, along, described
+from rocking.model.result import UNITS, Result, along, described
 from rocking.model.share import Share, share_variables
 from rocking.model.system import State, System, quantities
+from rocking.model.table import counts
+from rocking.model.text import percent
+from rocking.model.validation import Text, instance, one_of, refuse_if
 from rocking.model.verdict import Kind, Verdict
 
 if TYPE_CHECKING:
@@ -19,7 +22,160 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class SafeBasin(Result):
+class SystemSurvey(Result):
+    """Base class of surveys of a system, some of whose quantities are the axes of the dataset.
+
+    Attributes
+    ----------
+    system : System or None
+        System of the survey, without the values of the axes; None for a dataset that was read from a file.
+    """
+
+    dataset: xr.Dataset = field(repr=False)
+    system: System | None = field(default=None, repr=False, kw_only=True)
+
+    @property
+    def block(self) -> Any:
+        """Block in SI units that the system was made of; None if there is none, or if blocks of several angles were surveyed."""
+        known = self.system is not None and "critical_angle" not in self.dataset.coords
+        return self.system.block if known else None  # type: ignore[union-attr]
+
+
+def shares_line(data: xr.Dataset, variable: str, what: str, points: str) -> str:
+    """Return the size of a grid and the fraction of its points with each flag of a variable, in one line."""
+    size = " × ".join(f"{count:,}" for count in data[variable].shape)
+    there = {name: count for name, count in counts(data, variable).items() if count}
+    total = sum(there.values())
+    shares = ", ".join(f"{name} {percent(count / total)}" for name, count in there.items())
+    return f"{what} of {size} {points}: {shares or 'none computed yet'}"
+
+
+def counted_flags(data: xr.Dataset, *variables: str) -> xr.Dataset:
+    """Return the number of points with each flag of some variables, with the attributes of the dataset."""
+    import xarray as xr
+
+    numbers: dict[str, Any] = {}
+    names: dict[str, Any] = {}
+    for variable in variables:
+        text = str(data[variable].attrs["long_name"])
+        found = counts(data, variable)
+        names[variable] = variable, list(found), {"long_name": text}
+        numbers[f"{variable}_points"] = variable, list(found.values()), {"long_name": "number of points"}
+    return xr.Dataset(numbers, names, data.attrs)
+
+
+@frozen(eq=False)
+class ParametricMap(SystemSurvey):
+    """Responses over two quantities; returned by `parametric_map`. A dataset from a file or a store also makes one.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Variables over both axes: `kind`, `evidence`, `symmetric` (codes explained by their attributes `flag_values` and
+        `flag_meanings`), `response_period`, `impacts_per_period`, `brace_hits_per_period`, `exponent`, `exponent_error`, `peak`,
+        `transient` and `cycles`, as in `Verdict`. That of a store is read on access.
+
+    Examples
+    --------
+    >>> import numpy as np, rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.9)
+    >>> print(rk.parametric_map(system, amplitude=[0.5, 2.0], period=np.linspace(0.8, 1.2, 5)))
+    map of 2 × 5 points: rest 50.0 %, periodic 50.0 %
+    """
+
+    PLOT = "parametric_map"
+
+    def _summary(self) -> xr.Dataset:
+        return counted_flags(self.dataset, "kind", "evidence")
+
+    def __str__(self) -> str:
+        return shares_line(self.dataset, "kind", "map", "points")
+
+
+@frozen(eq=False)
+class OverturningSpectrum(SystemSurvey):
+    """Outcomes under one pulse over its amplitude and frequency; returned by `overturning_spectrum`.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Variables over `amplitude`, `frequency` and, if they vary, `restitution` and `critical_angle`. `outcome` and `certified` are
+        codes that their attributes explain. `peak` is the largest |Θ|, infinite if the block overturns. `margin` and `impacts` are
+        as in `RockingSpectrum`. `impacts_since_rest` of a block that overturns is the mode of overturning.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> pulse = rk.Pulse("one-sine", amplitude=5.0, duration=1.0)
+    >>> system = rk.System(pulse, restitution=0.9)
+    >>> print(rk.overturning_spectrum(system, amplitude=[3.0, 4.0, 7.0, 8.0], frequency=[4, 5]))
+    overturning spectrum of 4 × 2 runs: at-rest 25.0 %, overturned 75.0 %
+    """
+
+    PLOT = "overturning_spectrum"
+
+    def _summary(self) -> xr.Dataset:
+        return counted_flags(self.dataset, "outcome", "certified")
+
+    def __str__(self) -> str:
+        return shares_line(self.dataset, "outcome", "overturning spectrum", "runs")
+
+
+def named_levels(data: xr.Dataset) -> xr.Dataset:
+    """Return a dataset of levels of ground motions; ValueError for one of version 0.1, in which these are named otherwise."""
+    import xarray as xr
+
+    instance("dataset", data, xr.Dataset)
+    wrong = "scale" in (*data.dims, *data.attrs)
+    refuse_if(
+        wrong,
+        "dataset",
+        "name its levels `level`",
+        Text("`scale`, their name in version 0.1"),
+        "compute it again",
+    )
+    return data
+
+
+@frozen(eq=False)
+class RockingSpectrum(Result):
+    """Ends of blocks of many sizes under ground motions; returned by `rocking_spectrum`. A dataset from a file also makes one.
+
+    Angles are in units of the critical angle of each block, and sizes in SI units.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        `outcome` and `certified` (codes explained by their attributes), `peak` (largest |Θ|, infinite if the block
+        overturns), `margin`, `impacts` and `impacts_since_rest`. Impacts of chattering sequences are cut short.
+        Coordinates `name` and `pga` describe the records, `frequency_parameter` the sizes.
+
+    Examples
+    --------
+    >>> import numpy as np, rocking as rk
+    >>> strong = rk.example_ground_motion().scaled(5)
+    >>> print(rk.rocking_spectrum(strong, rk.Block(2.0, 0.5), size=np.linspace(0.5, 4, 8)))
+    rocking spectrum of 8 runs: ...
+    """
+
+    PLOT = "rocking_spectrum"
+
+    dataset: xr.Dataset = field(repr=False, converter=named_levels)
+
+    def _block(self, units: str | None, block: Any) -> None:
+        allowed = "be omitted: the angles are in units of the critical angle of each block"
+        refuse_if(units is not None and one_of("units", units, UNITS) == "si", "units", allowed, units)
+        refuse_if(block is not None, "block", allowed, block)
+
+    def _summary(self) -> xr.Dataset:
+        return counted_flags(self.dataset, "outcome", "certified")
+
+    def __str__(self) -> str:
+        return shares_line(self.dataset, "outcome", "rocking spectrum", "runs")
+
+
+@frozen(eq=False)
+class SafeBasin(SystemSurvey):
     """Safe fraction of initial states as a function of the amplitude; returned by `safe_basin`.
 
     Attributes
@@ -37,14 +193,14 @@ class SafeBasin(Result):
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=100)
+    >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.925)
+    >>> found = rk.safe_basin(system, amplitude=[0.2, 0.5], samples=100)
     >>> found.shares[0].of, found.melnikov_amplitude < found.heteroclinic_amplitude
     (100, True)
     """
 
     PLOT = "safe_basin"
 
-    dataset: xr.Dataset = field(repr=False)
     shares: tuple[Share, ...]
     heteroclinic_amplitude: float
     melnikov_amplitude: float
@@ -63,7 +219,7 @@ class SafeBasin(Result):
 
 
 @frozen(eq=False)
-class OverturningCurve(Result):
+class OverturningCurve(SystemSurvey):
     """Lowest amplitude that overturns a block initially at rest; returned by `overturning_amplitude`.
 
     Attributes
@@ -83,14 +239,13 @@ class OverturningCurve(Result):
     Examples
     --------
     >>> import rocking as rk
-    >>> print(rk.overturning_amplitude(period=2.0, restitution=0.925, amplitude=[0.5, 1.0], phases=2))
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=2.0), restitution=0.925)
+    >>> print(rk.overturning_amplitude(system, amplitude=[0.5, 1.0], phases=2))
     no overturning from rest at 2 amplitudes from 0.5 to 1 and 2 phases
     """
 
     PLOT = "overturning"
     QUANTITIES: ClassVar = {"lowest": LOWEST}
-
-    dataset: xr.Dataset = field(repr=False)
 
     def _data(self) -> xr.Dataset:
         """Return the dataset with the range of the amplitudes scanned, and the numbers of amplitudes and phases."""
@@ -122,7 +277,7 @@ class OverturningCurve(Result):
 
 
 @frozen(eq=False)
-class ChaosShare(Result):
+class ChaosShare(SystemSurvey):
     """Fraction of chaotic responses over random periods and amplitudes; returned by `chaos_share`.
 
     Attributes
@@ -136,13 +291,13 @@ class ChaosShare(Result):
     Examples
     --------
     >>> import rocking as rk
-    >>> print(rk.chaos_share(restitution=0.9, period=(0.5, 1.0), amplitude=(0.1, 0.9), samples=10))
+    >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
+    >>> print(rk.chaos_share(system, period=(0.5, 1.0), amplitude=(0.1, 0.9), samples=10))
     chaotic fraction: 0 % (0–27.8 %) at e = 0.9, of 10 responses each
     """
 
     PLOT = "chaos_share"
 
-    dataset: xr.Dataset = field(repr=False)
     shares: tuple[Share, ...]
 
     def __str__(self) -> str:
@@ -222,7 +377,7 @@ class Repeatability(Result):
 
 
 @frozen(eq=False)
-class RepeatabilityMap(Result):
+class RepeatabilityMap(SystemSurvey):
     """Map of the repeatability of outcomes over two quantities; returned by `repeatability_map`.
 
     Attributes
@@ -242,13 +397,13 @@ class RepeatabilityMap(Result):
     Examples
     --------
     >>> import rocking as rk
-    >>> print(rk.repeatability_map(amplitude=[0.2, 0.5], period=[1.0, 2.0], restitution=0.9, samples=10))
+    >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
+    >>> print(rk.repeatability_map(system, amplitude=[0.2, 0.5], period=[1.0, 2.0], samples=10))
     inputs off by up to 1 %: response type uncertain at 0 % (0–49.0 %), overturning uncertain at 0 % (0–49.0 %), of 4 points
     """
 
     PLOT = "repeatability_map"
 
-    dataset: xr.Dataset = field(repr=False)
     uncertain: Share
     overturning_uncertain: Share
 

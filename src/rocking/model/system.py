@@ -247,7 +247,7 @@ def quantities(system: System) -> dict[str, float]:
 
 
 def system_of(given: Mapping[str, float]) -> System:
-    """Return the system with these quantities, its forcing given by the period.
+    """Return the system with these quantities, its forcing made from the period, or without one from the frequency.
 
     It has no braces if their angle is infinite, and is slender if the critical angle is 0 or missing.
 
@@ -256,7 +256,8 @@ def system_of(given: Mapping[str, float]) -> System:
     >>> system_of({"amplitude": 2.0, "period": 1.0, "phase": 0.0, "restitution": 0.925} | NO_BRACES).forcing
     Harmonic(amplitude=2.0, period=1.0, phase=0.0)
     """
-    forcing = Harmonic(given["amplitude"], period=given["period"], phase=given["phase"])
+    time = "period" if "period" in given else "frequency"
+    forcing = Harmonic(given["amplitude"], phase=given["phase"], **{time: given[time]})
     braced = given["brace_angle"] < math.inf
     return System(
         forcing,

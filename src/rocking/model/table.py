@@ -120,6 +120,31 @@ def _attribute(name: Hashable, value: Any, block: Any, own: Quantities) -> Itera
         yield si.key, np.asarray(si.of(block, np.asarray(value, float))).tolist()
 
 
+# Large datasets.
+
+
+AT_ONCE = 1 << 20
+"""Approximate number of points in memory at a time."""
+
+
+def parts(found: xr.Dataset) -> Iterator[xr.Dataset]:
+    """Yield the dataset in parts along its first axis, each in memory."""
+    first = next(iter(found.data_vars.values())).dims[0]
+    count = found.sizes[first]
+    step = max(AT_ONCE * count // math.prod(found.sizes.values()), 1)
+    for begin in range(0, count, step):
+        yield found.isel({first: slice(begin, begin + step)}).load()
+
+
+def counts(found: xr.Dataset, name: str) -> dict[str, int]:
+    """Return the number of points with each flag of a variable, by the meaning of the flag."""
+    meanings = flags(found[name].attrs)
+    total = np.zeros(256, np.int64)
+    for part in parts(found[[name]]):
+        total += np.bincount(part[name].values.ravel(), minlength=256)
+    return {meaning: int(total[value]) for value, meaning in meanings.items()}
+
+
 # Tables.
 
 

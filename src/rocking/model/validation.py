@@ -400,13 +400,6 @@ def instance(name: str, value: Value, kind: type) -> Value:
     return value
 
 
-def check_progress(progress: object) -> None:
-    """Refuse anything but None or a function of a number of completed values with a TypeError."""
-    if progress is not None and not callable(progress):
-        allowed = "be a function of the number of values completed"
-        raise WrongType("progress", allowed, progress, "for example print")
-
-
 def one_of(name: str, value: str, allowed: Sequence[str]) -> str:
     """Return `value` if it is one of the `allowed` words; TypeError or ValueError for anything else."""
     choices = f"be one of {', '.join(map(repr, allowed))}"

@@ -46,8 +46,9 @@ class Kind(StrEnum):
         Examples
         --------
         >>> import rocking as rk
-        >>> found = rk.parametric_map(amplitude=[0.5, 2.0], period=[1.0, 2.0], restitution=0.925)
-        >>> int((found.kind == rk.Kind.REST.code).sum())
+        >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+        >>> found = rk.parametric_map(system, amplitude=[0.5, 2.0], period=[1.0, 2.0])
+        >>> int((found.dataset.kind == rk.Kind.REST.code).sum())
         2
         """
         return list(type(self)).index(self)

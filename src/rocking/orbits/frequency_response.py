@@ -13,17 +13,24 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.arrays import ReadOnlyArrays, read_only
-from rocking.model.forcing import Harmonic
 from rocking.model.orbit import Mode, Orbit
-from rocking.model.quantity import AMPLITUDE
 from rocking.model.result import Result, along, described
 from rocking.model.system import System
-from rocking.model.validation import Refusal, WrongType, exactly_one, reals, refuse_if, whole, within
+from rocking.model.validation import (
+    Refusal,
+    WrongType,
+    exactly_one,
+    instance,
+    reals,
+    refuse_if,
+    whole,
+    within,
+)
 from rocking.model.verdict import Kind
 from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
-from rocking.orbits.parameter import check_range, check_step, coordinate_of
+from rocking.orbits.parameter import check_range, check_step, coordinate_of, with_value
 from rocking.response.classify import classify
 from rocking.theory import symmetric_modes
 
@@ -40,8 +47,8 @@ class FrequencyResponse(ReadOnlyArrays, Result):
 
     Attributes
     ----------
-    amplitude, restitution : float
-        A and e.
+    system : System
+        System of which the period or the frequency is varied.
     modes : tuple of int
         Numbers n of the (1, n) orbits: one rocking cycle in n forcing cycles.
     parameter : str
@@ -58,7 +65,8 @@ class FrequencyResponse(ReadOnlyArrays, Result):
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.frequency_response(period=[0.5, 1.0], amplitude=2.0, restitution=0.925, modes=(1,))
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.frequency_response(system, period=[0.5, 1.0], modes=(1,))
     >>> found.rest["kind"].tolist(), len(found.of(1))
     (['periodic', 'periodic'], 1)
     """
@@ -66,8 +74,7 @@ class FrequencyResponse(ReadOnlyArrays, Result):
     PLOT = "frequency_response"
     LONG = ("point",)
 
-    amplitude: float
-    restitution: float
+    system: System
     modes: tuple[int, ...]
     parameter: str
     values: NDArray[np.float64] = field(repr=False, converter=read_only)
@@ -115,9 +122,9 @@ class FrequencyResponse(ReadOnlyArrays, Result):
             "parameter": name,
             f"{name}_range": self.values[[0, -1]].tolist(),
             "values": len(self.values),
-            "amplitude": self.amplitude,
-            "restitution": self.restitution,
-            "phase": 0.0,
+            "amplitude": self.system.periodic.amplitude,
+            "restitution": self.system.restitution,
+            "phase": self.system.periodic.phase,
             "modes": list(self.modes),
         }
         return xr.Dataset(variables, coordinates, attributes)
@@ -202,7 +209,8 @@ class FrequencyResponse(ReadOnlyArrays, Result):
         kinds = Counter(str(kind) for kind in self.rest["kind"])
         rest = ", ".join(f"{number:,} {kind}" for kind, number in kinds.most_common())
         return (
-            f"frequency response at amplitude {self.amplitude:.6g}, restitution {self.restitution:.6g}, {self.parameter} "
+            f"frequency response at amplitude {self.system.periodic.amplitude:.6g}, "
+            f"restitution {self.system.restitution:.6g}, {self.parameter} "
             f"{self.values[0]:.6g} to {self.values[-1]:.6g}: {found}; from rest {rest}"
         )
 
@@ -223,11 +231,11 @@ REST = np.dtype([("kind", "U14"), ("period", np.int64), ("peak", float), ("stead
 
 
 def frequency_response(
+    system: System,
+    *,
     period: ArrayLike | None = None,
-    amplitude: float = 1.0,
-    restitution: float = 0.925,
-    modes: Sequence[int] = (1, 3),
     frequency: ArrayLike | None = None,
+    modes: Sequence[int] = (1, 3),
     step: float = 0.01,
     max_cycles: int = 10_000,
 ) -> FrequencyResponse:
@@ -238,12 +246,11 @@ def frequency_response(
 
     Parameters
     ----------
-    period, frequency : array_like
-        Forcing period T or angular frequency Ω, at least two values. Give exactly one.
-    amplitude : float
-        Amplitude A, in (0, 1000]. Default: 1.
-    restitution : float
-        Coefficient of restitution e, in [0.001, 1). Default: 0.925.
+    system : System
+        Slender block on a harmonic base, of any period. Its amplitude is above 0, and its coefficient of restitution in [0.001, 1).
+        It has no braces.
+    period, frequency : array (n,)
+        Exactly one of them: forcing period T or angular frequency Ω, at least two values, in any order.
     modes : sequence of int
         Numbers n of forcing cycles per response period: odd, up to 99. Default: (1, 3).
     step : float
@@ -277,27 +284,33 @@ def frequency_response(
     Examples
     --------
     >>> import numpy as np, rocking as rk
-    >>> found = rk.frequency_response(period=np.linspace(0.5, 2.5, 9), amplitude=2.0, restitution=0.925)
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.frequency_response(system, period=np.linspace(0.5, 2.5, 9))
     >>> print(found)
     frequency response at amplitude 2, ...: (1, 1) 1 symmetric, 0 asymmetric, ...; (1, 3) 2 symmetric, 1 asymmetric, ...
     """
     parameter = exactly_one(period=period, frequency=frequency)
     values = _values(parameter, period if frequency is None else frequency)
-    amplitude = AMPLITUDE.checked(amplitude)
+    amplitude = instance("system", system, System).harmonic.amplitude
     refuse_if(
         amplitude == 0.0, "amplitude", "be above 0: without forcing there is no (1, n) orbit", amplitude
     )
-    restitution = _lossy(restitution)
+    refuse_if(
+        system.braces is not None,
+        "system",
+        "have no braces: its (1, n) orbits are those of a free block",
+        system,
+    )
+    _check_lossy(system.restitution)
     followed = tuple(dict.fromkeys(_odd(n) for n in _sequence(modes)))
     step = check_step(step)
-    systems = [System(Harmonic(amplitude, **{parameter: value}), restitution) for value in values.tolist()]
+    systems = [with_value(system, parameter, value) for value in values.tolist()]
     rest = _from_rest(systems, max_cycles)  # first, because it rejects an invalid max_cycles
     branches = [
         branch for n in followed for branch in _branches(systems, n, parameter, values[[0, -1]], step)
     ]
     return FrequencyResponse(
-        amplitude=amplitude,
-        restitution=restitution,
+        system=system,
         modes=followed,
         parameter=parameter,
         values=values,
@@ -314,14 +327,13 @@ def _values(name: str, values: Any) -> NDArray[np.float64]:
     return ordered
 
 
-def _lossy(restitution: float) -> float:
-    restitution = within("restitution", restitution, 1e-3, 1.0)
+def _check_lossy(restitution: float) -> None:
+    within("restitution", restitution, 1e-3, 1.0)
     if restitution == 1.0:
         remedy = (
             "an undamped motion never reaches a steady response; theory.symmetric_modes returns the modes"
         )
         raise Refusal("restitution", "lie in [0.001, 1)", restitution, remedy)
-    return restitution
 
 
 def _sequence(modes: Any) -> tuple[int, ...]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from itertools import repeat
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,12 +15,13 @@ from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
 from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.progress import Bar
 from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
 from rocking.model.result import Result, along, described
 from rocking.model.system import State, System, check_constant_restitution, check_periodic
-from rocking.model.validation import TooManyEvents, check_progress, instance, one_of, whole
+from rocking.model.validation import TooManyEvents, instance, one_of, whole
 from rocking.motion.march_loop import start_march
-from rocking.orbits.parameter import PARAMETERS, coordinate_of, fixed_quantities, ordered_values, with_value
+from rocking.orbits.parameter import coordinate_of, fixed_quantities, varied_parameter, with_value
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,7 +58,7 @@ class OrbitDiagram(ReadOnlyArrays, Result):
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> diagram = rk.orbit_diagram(system, "amplitude", [1.5, 2.0], sweep="rest", cycles=4)
+    >>> diagram = rk.orbit_diagram(system, amplitude=[1.5, 2.0], sweep="rest", cycles=4)
     >>> diagram.points.shape, bool(diagram.overturned.any())
     ((1, 2, 4, 2), False)
     """
@@ -151,14 +151,21 @@ BREATH = 1_000_000
 
 def orbit_diagram(
     system: System,
-    parameter: str,
-    values: ArrayLike,
     start: State | None = None,
+    *,
+    amplitude: ArrayLike | None = None,
+    period: ArrayLike | None = None,
+    frequency: ArrayLike | None = None,
+    phase: ArrayLike | None = None,
+    restitution: ArrayLike | None = None,
+    brace_angle: ArrayLike | None = None,
+    brace_restitution: ArrayLike | None = None,
+    critical_angle: ArrayLike | None = None,
     sweep: str = "both",
     transient: int = 300,
     cycles: int = 100,
     section_phase: float | None = None,
-    progress: Callable[[int], object] | None = None,
+    progress: bool = False,
 ) -> OrbitDiagram:
     """Compute an orbit (bifurcation) diagram: section points after a transient, over the values of a parameter.
 
@@ -169,13 +176,11 @@ def orbit_diagram(
     Parameters
     ----------
     system : System
-        Block, base motion and braces. Its value of the parameter is not used.
-    parameter : {"amplitude", "period", "frequency", "phase", "restitution", "brace_angle", "brace_restitution", "critical_angle"}
-        Varied parameter.
-    values : array_like
-        Values of the parameter, in any order.
+        Block, base motion and braces. The values of the parameter replace its own.
     start : State, optional
         Initial state (Θ, Θ') at τ = 0 of the first motion, or of each motion with ``sweep="rest"``. Default: at rest.
+    amplitude, period, frequency, phase, restitution, brace_angle, brace_restitution, critical_angle : array (n,)
+        Exactly one of them, the varied parameter: its values in any order.
     sweep : {"both", "up", "down", "rest"}
         Direction of the sweep; "rest": no sweep, each motion begins at `start`. Default: "both".
     transient : int
@@ -184,8 +189,8 @@ def orbit_diagram(
         Number of points recorded at each value, at least 1, and at most 2²⁵ ≈ 3.4·10⁷ points in total. Default: 100.
     section_phase : float, optional
         Forcing phase ψ of the section, rad. Default: the phase φ of the forcing.
-    progress : callable, optional
-        Function called with the number of values completed since its last call.
+    progress : bool
+        Whether to show the progress on stderr. Default: False.
 
     Returns
     -------
@@ -218,16 +223,27 @@ def orbit_diagram(
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=9.0, period=1.721328), restitution=0.8)
-    >>> diagram = rk.orbit_diagram(system, "amplitude", [10.0, 10.6, 10.9], sweep="up", cycles=8)
+    >>> diagram = rk.orbit_diagram(system, amplitude=[10.0, 10.6, 10.9], sweep="up", cycles=8)
     >>> print(diagram)
     orbit diagram over amplitude 10 to 10.9, 3 values, 8 points each after 300 cycles: swept up, overturned at 10.9
     >>> [len(set(angles.round(6).tolist())) for angles in diagram.points[0, :2, :, 0]]
     [1, 2]
     """
     instance("system", system, System)
-    check_progress(progress)
-    parameter = one_of("parameter", parameter, PARAMETERS)
-    ordered = ordered_values(values, MAX_POINTS)
+    instance("progress", progress, bool)
+    parameter, ordered = varied_parameter(
+        {
+            "amplitude": amplitude,
+            "period": period,
+            "frequency": frequency,
+            "phase": phase,
+            "restitution": restitution,
+            "brace_angle": brace_angle,
+            "brace_restitution": brace_restitution,
+            "critical_angle": critical_angle,
+        },
+        MAX_POINTS,
+    )
     start = State() if start is None else start
     ways = SWEEPS[one_of("sweep", sweep, tuple(SWEEPS))]
     transient = whole("transient", transient, 0, MAX_CYCLES)
@@ -236,7 +252,9 @@ def orbit_diagram(
     section_phase = PHASE.checked(section_phase, "section_phase")
     rows = np.array([_row(with_value(system, parameter, value), start) for value in ordered.tolist()])
     lanes = _lanes(rows, ways, cycles)
-    _run(lanes, start, "rest" not in ways, transient, section_phase, progress)
+    total = len(ordered) * len(ways)
+    with Bar(total, "orbit diagram", shown=progress) as bar:
+        _run(lanes, start, "rest" not in ways, transient, section_phase, bar)
     points, peak, statuses = (
         np.stack([_ascending(lanes, way, name) for way in ways]) for name in ("section", "peak", "statuses")
     )
@@ -295,7 +313,7 @@ def _run(
     carry: bool,
     transient: int,
     phase: float,
-    progress: Callable[[int], object] | None,
+    bar: Bar,
 ) -> None:
     """Fill the lanes, one thread per lane, in batches short enough for Ctrl-C and progress reports."""
     nothing = no_recording.no_recording()
@@ -311,8 +329,7 @@ def _run(
         for first in range(0, max(len(lane.rows) for lane in lanes), batch):
             done = slice(first, first + batch)
             states = list(pool.map(advance, lanes, states, repeat(done)))
-            if progress is not None:
-                progress(sum(len(lane.rows[done]) for lane in lanes))
+            bar.advance(sum(len(lane.rows[done]) for lane in lanes))
 
 
 def _ascending(lanes: list[_Lane], way: str, name: str) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -12,10 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.model.forcing import Harmonic
 from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.system import Braces, System, quantities
-from rocking.model.validation import Refusal, pair, reals, refuse_if, within
+from rocking.model.validation import Refusal, exactly_one, pair, reals, refuse_if, within
 from rocking.model.verdict import Kind
 
-PARAMETERS = tuple(name for name in SYSTEM_QUANTITIES if name not in ("angle", "velocity"))
 # Argument of a system without which a parameter has no value.
 MISSING = dict.fromkeys(("brace_angle", "brace_restitution"), "braces=Braces(…)") | {
     "critical_angle": "critical_angle=…"
@@ -56,12 +55,13 @@ def with_value(system: System, parameter: str, value: float) -> System:
     return evolve(system, braces=evolve(braces, **{parameter.removeprefix("brace_"): value}))
 
 
-def ordered_values(values: ArrayLike, most: int) -> NDArray[np.float64]:
-    """Return the different values of a parameter, ascending, after checking that they are finite and at most `most`."""
-    ordered = np.unique(reals("values", values))
+def varied_parameter(values: Mapping[str, ArrayLike | None], most: int) -> tuple[str, NDArray[np.float64]]:
+    """Return the only parameter that is not None, and its different values, ascending: finite numbers, at most `most`."""
+    name = exactly_one(**values)
+    ordered = np.unique(reals(name, values[name]))
     if not 0 < len(ordered) <= most or not np.isfinite(ordered).all():
-        raise Refusal("values", f"be 1 to {most:,} finite numbers", values)
-    return ordered
+        raise Refusal(name, f"be 1 to {most:,} finite numbers", values[name])
+    return name, ordered
 
 
 def fixed_quantities(system: System, *varied: str) -> dict[str, float]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
@@ -12,17 +11,17 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.progress import Bar
 from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.result import Result, along, described
 from rocking.model.system import State, System, check_periodic
-from rocking.model.validation import check_progress, instance, one_of
+from rocking.model.validation import instance
 from rocking.model.verdict import Kind, Verdict
 from rocking.orbits.parameter import (
-    PARAMETERS,
     coordinate_of,
     fixed_quantities,
     kinds_of,
-    ordered_values,
+    varied_parameter,
     with_value,
 )
 from rocking.response.classify import MeanImpacts, budget, classify, mean_impacts
@@ -61,7 +60,7 @@ class ResponseDiagram(ReadOnlyArrays, Result):
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.response_diagram(system, "amplitude", [0.5, 2.0])
+    >>> found = rk.response_diagram(system, amplitude=[0.5, 2.0])
     >>> print(found)
     response diagram over amplitude 0.5 to 2, 2 values, each from Θ = 0, Θ' = 0: 1 rest, 1 periodic (period 1)
     >>> found.exponent.round(4).tolist(), found.rotation.tolist()
@@ -169,12 +168,19 @@ MAX_VALUES = 100_000
 
 def response_diagram(
     system: System,
-    parameter: str,
-    values: ArrayLike,
     start: State | None = None,
+    *,
+    amplitude: ArrayLike | None = None,
+    period: ArrayLike | None = None,
+    frequency: ArrayLike | None = None,
+    phase: ArrayLike | None = None,
+    restitution: ArrayLike | None = None,
+    brace_angle: ArrayLike | None = None,
+    brace_restitution: ArrayLike | None = None,
+    critical_angle: ArrayLike | None = None,
     max_cycles: int = 100_000,
     max_period: int = 64,
-    progress: Callable[[int], object] | None = None,
+    progress: bool = False,
 ) -> ResponseDiagram:
     """Compute a response diagram: type of response, exponent and rotation number over the values of a parameter.
 
@@ -185,17 +191,15 @@ def response_diagram(
     Parameters
     ----------
     system : System
-        Block, base motion and braces. Its value of the parameter is not used.
-    parameter : {"amplitude", "period", "frequency", "phase", "restitution", "brace_angle", "brace_restitution", "critical_angle"}
-        Varied parameter.
-    values : array_like
-        Values of the parameter, in any order, at most 100,000.
+        Block, base motion and braces. The values of the parameter replace its own.
     start : State, optional
         Initial state (Θ, Θ') at τ = 0 of each motion. Default: at rest.
+    amplitude, period, frequency, phase, restitution, brace_angle, brace_restitution, critical_angle : array (n,)
+        Exactly one of them, the varied parameter: its values in any order, at most 100,000.
     max_cycles, max_period : int
         As in `classify`. Default: 100,000 and 64.
-    progress : callable, optional
-        Function called with the number of values completed since its last call.
+    progress : bool
+        Whether to show the progress on stderr. Default: False.
 
     Returns
     -------
@@ -236,16 +240,27 @@ def response_diagram(
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=9.0, period=1.721328), restitution=0.8)
-    >>> found = rk.response_diagram(system, "amplitude", [10.2, 10.5, 10.7, 10.9])
+    >>> found = rk.response_diagram(system, amplitude=[10.2, 10.5, 10.7, 10.9])
     >>> found.kind.tolist(), found.period.tolist()
     (['periodic', 'periodic', 'periodic', 'overturned'], [1, 2, 4, 0])
     >>> found.rotation.tolist()
     [2.0, 2.0, 2.0, nan]
     """
     instance("system", system, System)
-    check_progress(progress)
-    parameter = one_of("parameter", parameter, PARAMETERS)
-    ordered = ordered_values(values, MAX_VALUES)
+    instance("progress", progress, bool)
+    parameter, ordered = varied_parameter(
+        {
+            "amplitude": amplitude,
+            "period": period,
+            "frequency": frequency,
+            "phase": phase,
+            "restitution": restitution,
+            "brace_angle": brace_angle,
+            "brace_restitution": brace_restitution,
+            "critical_angle": critical_angle,
+        },
+        MAX_VALUES,
+    )
     limits = budget(max_cycles, max_period)
     systems = [with_value(system, parameter, value) for value in ordered.tolist()]
     # A value that is refused is refused before the first verdict.
@@ -258,11 +273,10 @@ def response_diagram(
         return verdict, mean_impacts(verdict)
 
     found = []
-    with ThreadPoolExecutor() as pool:
+    with ThreadPoolExecutor() as pool, Bar(len(systems), "response diagram", shown=progress) as bar:
         for pair in pool.map(respond, systems):
             found.append(pair)
-            if progress is not None:
-                progress(1)
+            bar.advance(1)
     verdicts, means = zip(*found, strict=True)
     return ResponseDiagram(
         system=system,

@@ -147,9 +147,10 @@ COLOURS_BY_SYMMETRY = {True: style.MOTION, False: style.IMPACT}
 def branch(
     result: Branch | Sequence[Branch],
     ax: Axes | None = None,
+    block: Block | None = None,
+    *,
     quantity: str = "peak",
     phase: float = 0.0,
-    block: Block | None = None,
 ) -> Axes:
     """Plot branches of periodic orbits: stable solid, unstable dashed, neutral dash-dotted, one marker per special point.
 
@@ -159,13 +160,13 @@ def branch(
         Results of `continue_orbit` and `switch_branch`, over one parameter.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
+    block : Block, optional
+        Block for SI axes. Default: that of the result. None: normalised axes.
     quantity : {"peak", "angle", "velocity", "multiplier"}
         Quantity to draw: the largest |Θ|; Θ or Θ' at the section, one line per cycle of the period; or the modulus |μ| of the
         largest Floquet multiplier on a logarithmic axis, with a line at 1. Default: "peak".
     phase : float
         Forcing phase ψ of the section, rad. Default: 0.
-    block : Block, optional
-        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -364,7 +365,7 @@ LOOKS = {
 
 
 def orbits(
-    result: Orbits, ax: Axes | None = None, phase: float | None = None, block: Block | None = None
+    result: Orbits, ax: Axes | None = None, block: Block | None = None, *, phase: float | None = None
 ) -> Axes:
     """Plot the periodic orbits of a system at one forcing phase: one point per cycle of the period, hollow if unstable.
 
@@ -374,10 +375,10 @@ def orbits(
         Result of `rocking.find_orbits`.
     ax : matplotlib Axes, optional
         Axes to draw into, for example those of `basins` or `section`. Default: a new figure, one column wide.
-    phase : float, optional
-        Forcing phase ψ of the section, rad. Default: the phase of the forcing.
     block : Block, optional
         Block for SI axes. Default: that of the result. None: normalised axes.
+    phase : float, optional
+        Forcing phase ψ of the section, rad. Default: the phase of the forcing.
 
     Returns
     -------
@@ -474,7 +475,8 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     Examples
     --------
     >>> import numpy as np, rocking as rk
-    >>> found = rk.frequency_response(period=np.linspace(0.5, 2.5, 9), amplitude=2.0, restitution=0.925)
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.frequency_response(system, period=np.linspace(0.5, 2.5, 9))
     >>> [text.get_text() for text in rk.plot.frequency_response(found).get_legend().get_texts()]
     ['(1, 1), stable', '(1, 3), stable', '(1, 3), unstable', 'from rest: periodic', 'from rest: overturned']
     """

@@ -195,7 +195,7 @@ STOUT = Block(height=2.0, width=1.0)
 SHAKEN = palette.SERIES[3]
 
 
-def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 0.5) -> Axes:
+def schematic(ax: Axes | None = None, block: Block | None = None, *, lean: float = 0.5) -> Axes:
     """Draw the block of Eq. (1) (Yim & Lin 1991) tilted about its corner O, with H, B, R, θ, θcr, O, O' and the base motion.
 
     Parameters
@@ -344,9 +344,10 @@ SIZE, DOTS = (6.4, 5.6), 100
 
 
 def animation(
-    motion: Motion,
+    result: Motion,
     path: str | Path,
     block: Block | None = None,
+    *,
     seconds: float = 10.0,
     fps: float = 25.0,
     cycles: tuple[float, float] | None = None,
@@ -355,7 +356,7 @@ def animation(
 
     Parameters
     ----------
-    motion : Motion
+    result : Motion
         Motion recorded with ``record="all"``.
     path : str or Path
         Path of the animation; ``.gif`` or ``.mp4``.
@@ -404,12 +405,12 @@ def animation(
     ...     rk.plot.animation(rk.simulate(system, cycles=20), f"{folder}/block.gif", seconds=0.4).name
     'block.gif'
     """
-    instance("motion", motion, Motion)
+    instance("result", result, Motion)
     body = NOMINAL if block is None else instance("block", block, Block)
     path = check_film(path)
     count = max(2, round(within("seconds", seconds, 0.1, 600.0) * within("fps", fps, 1.0, 100.0)))
-    start, stop = _window(motion, body, cycles)
-    return write_film(path, _Film(motion, block, np.linspace(start, stop, count), seconds).frames(), fps)
+    start, stop = _window(result, body, cycles)
+    return write_film(path, _Film(result, block, np.linspace(start, stop, count), seconds).frames(), fps)
 
 
 def _window(motion: Motion, block: Block, cycles: tuple[float, float] | None) -> tuple[float, float]:

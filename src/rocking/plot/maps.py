@@ -17,6 +17,7 @@ from matplotlib.patches import Patch
 from rocking.model.block import Block
 from rocking.model.files import resolve_path
 from rocking.model.package import require_extra
+from rocking.model.survey_results import ParametricMap
 from rocking.model.text import percent, shown_path
 from rocking.model.validation import WrongType, refuse_if
 from rocking.plot import palette, style, theory_curves
@@ -96,15 +97,17 @@ def nearest(values: np.ndarray, places: np.ndarray) -> np.ndarray:
 
 
 def _levels(found: Any) -> list[xr.Dataset]:
+    if isinstance(found, ParametricMap):
+        return [found.dataset]
     if isinstance(found, str | os.PathLike):
-        found = _opened(resolve_path("found", found))
+        found = _opened(resolve_path("result", found))
     levels = list(found) if isinstance(found, Sequence) else [found]
     allowed = "be a map over two axes, as parametric_map gives it, or the folder of its store"
     for level in levels:
         kinds = getattr(level, "kind", None)
         if getattr(kinds, "ndim", 0) != 2 or not all(hasattr(level, name) for name in NEEDED):
-            raise WrongType("found", allowed, found)
-    refuse_if(not levels, "found", allowed, found)
+            raise WrongType("result", allowed, found)
+    refuse_if(not levels, "result", allowed, found)
     return levels
 
 
@@ -113,7 +116,7 @@ def _opened(folder: Path) -> list[xr.Dataset]:
     import xarray as xr
 
     count = sum(1 for each in folder.glob("level-*") if each.is_dir())
-    refuse_if(not count, "found", "be the folder of a map's store", str(folder))
+    refuse_if(not count, "result", "be the folder of a map's store", str(folder))
     require_extra("store")
     with _reading(folder):
         return [
@@ -133,7 +136,7 @@ def _reading(folder: Path | None) -> Iterator[None]:
         if folder is None:
             raise
         raise OSError(
-            f"found must be the folder of a store that can be read; got {shown_path(folder)}, which is damaged: "
+            f"result must be the folder of a store that can be read; got {shown_path(folder)}, which is damaged: "
             "repeat the survey that made it with repair"
         ) from error
 
@@ -154,9 +157,10 @@ HEIGHT, ROW = 2.75, 0.165
 
 
 def parametric_map(
-    found: xr.Dataset | str | os.PathLike[str] | Sequence[xr.Dataset],
+    result: ParametricMap | xr.Dataset | str | os.PathLike[str] | Sequence[xr.Dataset],
     ax: Axes | None = None,
     block: Block | None = None,
+    *,
     curves: Iterable[str] = (),
     symbols: str | None = None,
 ) -> Axes:
@@ -164,13 +168,13 @@ def parametric_map(
 
     Parameters
     ----------
-    found : xarray.Dataset, path, or sequence of xarray.Dataset
-        Result of `rocking.parametric_map`, the folder of its store, or levels of a store, coarse to fine. A missing point
+    result : ParametricMap, xarray.Dataset, path, or sequence of xarray.Dataset
+        Result of `rocking.parametric_map`, its dataset, the folder of its store, or levels of a store, coarse to fine. A missing point
         of a level is taken from the next coarser level. Points that no level holds stay white.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes and a title. Default: the normalised axes of the map.
+        Block for SI axes and a title. Default: that of the result. None: normalised axes.
     curves : sequence of str
         Theoretical amplitudes over a map of the amplitude and the period, frequency or restitution, without braces.
         "symmetry-breaking-1", "symmetry-breaking-3", "existence-1" and "existence-3" belong to the (1, 1) and (1, 3) modes.
@@ -186,13 +190,13 @@ def parametric_map(
     Raises
     ------
     TypeError
-        If `found` is not a map over two axes, or an argument has the wrong type.
+        If `result` is not a map over two axes, or an argument has the wrong type.
     ValueError
         If a curve or a set of symbols is unknown, or a curve does not apply to the map.
     ImportError
-        If `found` is a path, and the extra ``store`` is not installed.
+        If `result` is a path, and the extra ``store`` is not installed.
     OSError
-        If `found` is a path that cannot exist, or a store that cannot be read.
+        If `result` is a path that cannot exist, or a store that cannot be read.
 
     See Also
     --------
@@ -209,15 +213,14 @@ def parametric_map(
     --------
     >>> import numpy as np
     >>> import rocking as rk
-    >>> found = rk.parametric_map(
-    ...     amplitude=np.linspace(0, 16, 20), period=np.linspace(0.2, 3, 20), restitution=0.925
-    ... )
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.parametric_map(system, amplitude=np.linspace(0, 16, 20), period=np.linspace(0.2, 3, 20))
     >>> ax = rk.plot.parametric_map(found, curves=["symmetry-breaking-1", "melnikov"])
     >>> ax.get_xlabel(), ax.get_ylabel()
     ('period $T$', 'amplitude $A$')
     """
     check_symbols(symbols)
-    read = Responses(found)
+    read = Responses(result)
     curves = theory_curves.check(curves, read.names, read.attributes)
     codes, up, across, counts = _thinned(read, MAX_DRAWN if symbols is None else MAX_SYMBOLS)
     (turn_up, y_label), (turn_across, x_label) = (parameter(name, block) for name in read.names)

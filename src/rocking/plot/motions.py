@@ -31,7 +31,7 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
     `cycles` = (first, last) counts from the start; None selects the whole motion. An overturned motion is shown up to
     |Θ| = 3, or until it lies flat with the full equation, beyond the instant at which overturning is certain.
     """
-    instance("motion", motion, Motion)
+    instance("result", motion, Motion)
     end = end_shown(motion)
     if cycles is None:
         return 0.0, end
@@ -130,16 +130,17 @@ RATIOS = (2, 1)
 
 
 def time_history(
-    motion: Motion,
+    result: Motion,
     ax: Axes | None = None,
     block: Block | None = None,
+    *,
     cycles: tuple[float, float] | None = None,
 ) -> Axes:
     r"""Plot the angle of a motion against time, with exact corners at impacts and exact extremes.
 
     Parameters
     ----------
-    motion : Motion
+    result : Motion
         Motion recorded with ``record="all"``.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide. Under a base motion of finite length it has a second
@@ -181,13 +182,13 @@ def time_history(
     >>> print(ax.get_xlabel())
     time $\tau = \alpha t$
     """
-    start, stop = window(motion, cycles)
+    start, stop = window(result, cycles)
     quantities(block)  # refused before there is a figure
-    if ax is not None or has_cycles(motion):
-        return draw_history(style.own(ax), motion, start, stop, block)
+    if ax is not None or has_cycles(result):
+        return draw_history(style.own(ax), result, start, stop, block)
     figure = figures.new(style.COLUMN, 3.2)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=RATIOS)
-    return draw_with_base(above, below, motion, block)
+    return draw_with_base(above, below, result, block)
 
 
 def draw_with_base(above: Axes, below: Axes, motion: Motion, block: Block | None) -> Axes:
@@ -296,16 +297,17 @@ RING, DOT = 1.3, 0.75
 
 
 def phase_portrait(
-    motion: Motion,
+    result: Motion,
     ax: Axes | None = None,
     block: Block | None = None,
+    *,
     cycles: tuple[float, float] | None = None,
 ) -> Axes:
     """Plot the phase portrait of a motion, with a stroke at each impact from the velocity before (ring) to after (dot).
 
     Parameters
     ----------
-    motion : Motion
+    result : Motion
         Motion recorded with ``record="all"``.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -345,10 +347,10 @@ def phase_portrait(
     >>> [line.get_label() for line in ax.lines if not line.get_label().startswith("_")]
     ['before impact', 'after impact']
     """
-    start, stop = window(motion, cycles)
-    time, angle, velocity = trace(motion, start, stop)
+    start, stop = window(result, cycles)
+    time, angle, velocity = trace(result, start, stop)
     breaks = 1 + np.flatnonzero((np.diff(time) == 0) & (np.diff(velocity) != 0))
-    events = inside(motion.events, start, stop)
+    events = inside(result.events, start, stop)
     events = events[np.isin(events["kind"], list(STRIKES))]
     shown = quantities(block)
     ax = style.own(ax, height=3.0)
@@ -402,7 +404,7 @@ def _strikes(ax: Axes, shown: Quantities, hits: NDArray, kind: str, colour: str,
 CYCLES_SHOWN = 30
 
 
-def overview(motion: Motion, block: Block | None = None) -> Figure:
+def overview(result: Motion, block: Block | None = None) -> Figure:
     """Plot the time history and phase portrait of a motion, or its section or final state if only these were recorded.
 
     A bounded motion is shown by its last 30 cycles. A motion that comes to rest is shown until shortly after its last
@@ -410,7 +412,7 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
 
     Parameters
     ----------
-    motion : Motion
+    result : Motion
         Motion with any setting of ``record``.
     block : Block, optional
         Block for SI axes. Default: that of the result. None: normalised axes.
@@ -437,22 +439,22 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
     >>> len(rk.plot.overview(rk.simulate(system, cycles=200)).axes)
     2
     """
-    instance("motion", motion, Motion)
+    instance("result", result, Motion)
     quantities(block)  # refused before there is a figure
-    if motion.record != "all":
+    if result.record != "all":
         figure, (ax,) = style.panels(height=3.0)
         kept = (
-            motion.section() if motion.record == "section" else [(motion.final.angle, motion.final.velocity)]
+            result.section() if result.record == "section" else [(result.final.angle, result.final.velocity)]
         )
-        forcing = motion.system.forcing
+        forcing = result.system.forcing
         section(kept, ax, block, phase=forcing.phase if isinstance(forcing, Harmonic) else None)
         return figure
-    if not has_cycles(motion):
-        return _with_base(motion, block)
-    cycles = _cycles(motion)
+    if not has_cycles(result):
+        return _with_base(result, block)
+    cycles = _cycles(result)
     figure, (left, right) = style.panels(columns=2, height=3.0, ratios=(3, 2))
-    time_history(motion, left, block, cycles)
-    phase_portrait(motion, right, block, cycles)
+    time_history(result, left, block, cycles=cycles)
+    phase_portrait(result, right, block, cycles=cycles)
     return figure
 
 

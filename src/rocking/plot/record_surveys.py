@@ -35,12 +35,12 @@ SHADE = 0.2
 """Opacity of a band."""
 
 
-def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
+def fragility(result: Fragility, ax: Axes | None = None) -> Axes:
     """Plot fractions of runs that exceed each limit with their 95 % intervals, and the lognormal fits with their bands.
 
     Parameters
     ----------
-    found : Fragility
+    result : Fragility
         Result of `rocking.fragility`, with at most three limits and overturning.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -52,7 +52,7 @@ def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError, ValueError
-        If `found` is not a Fragility, `ax` is not Axes, or there are more than three limits.
+        If `result` is not a Fragility, `ax` is not Axes, or there are more than three limits.
 
     See Also
     --------
@@ -74,21 +74,23 @@ def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
     >>> rk.plot.fragility(found).get_ylabel()
     'probability (%)'
     """
-    instance("found", found, Fragility)
-    data = found.dataset
+    instance("result", result, Fragility)
+    data = result.dataset
     count = data.sizes["limit"]
-    refuse_if(count > len(COLOURS), "found", f"have at most {len(COLOURS) - 1} limits to be drawn", count - 1)
+    refuse_if(
+        count > len(COLOURS), "result", f"have at most {len(COLOURS) - 1} limits to be drawn", count - 1
+    )
     ax = style.own(ax, height=3.7)
-    style.block_title(ax, found.block, full=found.dataset.attrs.get("model") == "full")
-    levels = data.scale.values
+    style.block_title(ax, result.block, full=result.dataset.attrs.get("model") == "full")
+    levels = data.level.values
     shades = [*COLOURS[: count - 1], COLOURS[-1]]
     step = APART * float(np.diff(levels).min() if levels.size > 1 else ALONE * levels[0])
     for number, (colour, mark) in enumerate(zip(shades, [*MARKS[: count - 1], MARKS[-1]], strict=True)):
         of = data.isel(limit=number)
         beside = levels + step * (number - (count - 1) / 2)
         value, low, high = (100 * of[name].values for name in ("fraction", "fraction_low", "fraction_high"))
-        if not found.fits[number].problem:
-            _draw_fit(ax, found.fits[number], of, colour)
+        if not result.fits[number].problem:
+            _draw_fit(ax, result.fits[number], of, colour)
         bars = np.array([value - low, high - value])
         ax.errorbar(
             beside,
@@ -114,13 +116,13 @@ def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
                 zorder=3,
                 gid="fraction",
             )
-    style.label(ax, level_label(data.scale), "probability (%)")
+    style.label(ax, level_label(data.level), "probability (%)")
     ax.set_ylim(-2.0, 102.0)
     blocks = f" × {counted(data.sizes['sample'], 'block')}" if "sample" in data.sizes else ""
     style.note(ax, counted(data.sizes["record"], "record") + blocks)
     if levels.size == 1:
         ax.set_xticks(levels)  # marks beside each other have the same level
-    _key(ax, found, shades)
+    _key(ax, result, shades)
     return ax
 
 
@@ -128,7 +130,7 @@ def _draw_fit(ax: Axes, fit: LognormalFit, of: Any, colour: str) -> None:
     """Draw the fit of one limit and its band."""
     from scipy.interpolate import PchipInterpolator
 
-    levels = of.scale.values
+    levels = of.level.values
     fine = np.union1d(levels, np.linspace(levels[0], levels[-1], POINTS))
     low, high = (PchipInterpolator(levels, 100.0 * of[name].values)(fine) for name in ("fit_low", "fit_high"))
     ax.fill_between(fine, low, high, color=colour, alpha=SHADE, linewidth=0, gid="band")
@@ -175,13 +177,13 @@ SHADES = ((style.MOTION, (0, (5, 2))), (style.INK, "-"), (style.IMPACT, (0, (6, 
 
 
 def incremental_dynamic_analysis(
-    found: IncrementalDynamicAnalysis, ax: Axes | None = None, fractiles: Any = FRACTILES
+    result: IncrementalDynamicAnalysis, ax: Axes | None = None, *, fractiles: Any = FRACTILES
 ) -> Axes:
     r"""Plot the level of the intensity measure over the peak of each record, with fractiles over the records.
 
     Parameters
     ----------
-    found : IncrementalDynamicAnalysis
+    result : IncrementalDynamicAnalysis
         Result of `rocking.incremental_dynamic_analysis`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -195,7 +197,7 @@ def incremental_dynamic_analysis(
     Raises
     ------
     TypeError, ValueError
-        If `found` is not an IncrementalDynamicAnalysis, `ax` is not Axes, or a fraction lies outside (0, 1].
+        If `result` is not an IncrementalDynamicAnalysis, `ax` is not Axes, or a fraction lies outside (0, 1].
 
     See Also
     --------
@@ -216,18 +218,18 @@ def incremental_dynamic_analysis(
     >>> rk.plot.incremental_dynamic_analysis(found).get_xlabel()
     'largest angle $|\\theta|$ (°)'
     """
-    instance("found", found, IncrementalDynamicAnalysis)
+    instance("result", result, IncrementalDynamicAnalysis)
     fractions = checked_fractions("fractiles", fractiles)
     if len(fractions) > len(SHADES):
         raise Refusal("fractiles", f"hold 1 to {len(SHADES)} fractions", fractiles)
-    thick = found.fractiles(fractions)
+    thick = result.fractiles(fractions)
     ax = style.own(ax, height=3.3)
-    style.block_title(ax, found.block, full=found.dataset.attrs.get("model") == "full")
-    data = found.dataset
-    levels = data.scale.values
-    peaks = found.block.degrees(data.peak.transpose("record", "scale").values)
+    style.block_title(ax, result.block, full=result.dataset.attrs.get("model") == "full")
+    data = result.dataset
+    levels = data.level.values
+    peaks = result.block.degrees(data.peak.transpose("record", "level").values)
     standing = peaks[np.isfinite(peaks)]
-    edge = BEYOND * max(float(standing.max(initial=0.0)), float(found.block.degrees(1.0)))
+    edge = BEYOND * max(float(standing.max(initial=0.0)), float(result.block.degrees(1.0)))
     for number, each in enumerate(peaks):
         ax.plot(
             *flat_ended(each, levels, edge),
@@ -240,7 +242,7 @@ def incremental_dynamic_analysis(
         )
     for (colour, dashes), each in zip(SHADES, thick, strict=False):
         ax.plot(
-            *flat_ended(found.block.degrees(each.values), levels, edge),
+            *flat_ended(result.block.degrees(each.values), levels, edge),
             color=colour,
             linestyle=dashes,
             linewidth=1.6 * style.LINE,
@@ -248,7 +250,7 @@ def incremental_dynamic_analysis(
             gid="fractile",
             zorder=3,
         )
-    style.label(ax, r"largest angle $|\theta|$ (°)", level_label(data.scale))
+    style.label(ax, r"largest angle $|\theta|$ (°)", level_label(data.level))
     ax.set_xlim(0.0, edge)
     ax.set_ylim(bottom=0.0)
     style.note(ax, counted(len(peaks), "record"))
@@ -286,12 +288,12 @@ NUMBERED = 10
 """Number of rows, evenly spread, that carry a number where there are too many records for names."""
 
 
-def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
+def overturning_set(result: OverturningSet, ax: Axes | None = None) -> Axes:
     """Plot the levels at which each record overturns the block, as bands; between them the block stands.
 
     Parameters
     ----------
-    found : OverturningSet
+    result : OverturningSet
         Result of `rocking.overturning_set`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -303,7 +305,7 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError
-        If `found` is not an OverturningSet, or `ax` has the wrong type.
+        If `result` is not an OverturningSet, or `ax` has the wrong type.
 
     See Also
     --------
@@ -324,14 +326,14 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
     >>> rk.plot.overturning_set(found).get_xlabel()
     'peak ground acceleration PGA (g)'
     """
-    instance("found", found, OverturningSet)
-    count = len(found.records)
+    instance("result", result, OverturningSet)
+    count = len(result.records)
     ax = style.own(ax, height=min(REST + ROW * count, TALLEST))
-    style.block_title(ax, found.block, full=found.dataset.attrs.get("model") == "full")
-    narrowest = float(np.ptp(found.scales)) * NARROWEST
-    doubtful = found.undecided
+    style.block_title(ax, result.block, full=result.dataset.attrs.get("model") == "full")
+    narrowest = float(np.ptp(result.levels)) * NARROWEST
+    doubtful = result.undecided
     for row in range(count):
-        bands = found.intervals(row)
+        bands = result.intervals(row)
         ax.broken_barh(
             [(low, max(high - low, narrowest)) for low, high in bands.tolist()],
             (row - BAND / 2, BAND),
@@ -341,7 +343,7 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
             gid=f"bands {row}",
         )
     ax.plot(
-        found.lowest,
+        result.lowest,
         np.arange(count) - BAND / 2,
         linestyle="none",
         marker="v",
@@ -363,10 +365,10 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
             label="undecided",
             gid="undecided",
         )
-    style.label(ax, intensity_label(found), "" if count <= MAX_NAMED else "record")
-    ax.set_xlim(found.scales[0], found.scales[-1])
+    style.label(ax, intensity_label(result), "" if count <= MAX_NAMED else "record")
+    ax.set_xlim(result.levels[0], result.levels[-1])
     ax.set_ylim(count - 0.5, -0.5)
-    _name_rows(ax, found.records.names)
+    _name_rows(ax, result.records.names)
     bands_entry = Patch(
         facecolor=palette.OVERTURNED[0], edgecolor=style.INK, linewidth=EDGE, label="overturns"
     )

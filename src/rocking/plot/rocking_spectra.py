@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 
 from rocking.model.block import Block
 from rocking.model.record_set import INTENSITIES
+from rocking.model.survey_results import OverturningSpectrum, RockingSpectrum, named_levels
 from rocking.model.text import counted
 from rocking.model.validation import Refusal, WrongType, one_of
 from rocking.model.verdict import Outcome
@@ -50,7 +51,11 @@ LONGEST = 28
 
 
 def rocking_spectrum(
-    found: xr.Dataset, ax: Axes | None = None, *, across: str = "size", unit: str = "critical"
+    result: RockingSpectrum | xr.Dataset,
+    ax: Axes | None = None,
+    *,
+    across: str = "size",
+    unit: str = "critical",
 ) -> Axes:
     r"""Plot the largest angle over the size or the slenderness of the block.
 
@@ -61,8 +66,9 @@ def rocking_spectrum(
 
     Parameters
     ----------
-    found : xarray.Dataset
-        Result of `rocking.rocking_spectrum` over records, size and slenderness. Select one value of other dimensions first.
+    result : RockingSpectrum or xarray.Dataset
+        Result of `rocking.rocking_spectrum` over records, size and slenderness, or its dataset. Select one value of other dimensions
+        first: ``result.dataset.sel(level=1)``.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     across : {"size", "frequency-parameter", "period"}
@@ -77,9 +83,9 @@ def rocking_spectrum(
     Raises
     ------
     TypeError
-        If `found` is not a rocking spectrum, or an argument has the wrong type.
+        If `result` is not a rocking spectrum, or an argument has the wrong type.
     ValueError
-        If `found` varies over another quantity, or over several records as a map, or if an argument is unknown.
+        If `result` varies over another quantity, or over several records as a map, or if an argument is unknown.
 
     See Also
     --------
@@ -96,6 +102,7 @@ def rocking_spectrum(
     '$2\\pi/\\alpha$ (s)'
     """
     across, unit = one_of("across", across, tuple(ACROSS)), one_of("unit", unit, tuple(UNITS))
+    found = result.dataset if isinstance(result, RockingSpectrum) else result
     _check(found)
     dims = found.peak.dims
     if "slenderness" in dims and "size" in dims and found.sizes["slenderness"] > MOST_SLENDERNESSES:
@@ -139,12 +146,12 @@ def _head(ax: Axes, found: xr.Dataset) -> None:
     constants = []
     if "slenderness" not in found.dims:
         constants.append(rf"$\theta_\mathrm{{cr}}$ = {np.degrees(float(value(found, 'slenderness'))):.3g}°")
-    scale = float(value(found, "scale")) if "scale" in {**found.coords, **found.attrs} else 1.0
-    if scale != 1.0:
+    level = float(value(found, "level")) if "level" in {**found.coords, **found.attrs} else 1.0
+    if level != 1.0:
         measure = INTENSITIES.get(found.attrs["intensity"], (None,))[0]
         unit = "" if measure is None or measure.unit == "1" else f" {measure.unit}"
         symbol = found.attrs["intensity"] if measure is None else measure.symbol
-        constants.append(f"{symbol} = {scale:g}{unit}")
+        constants.append(f"{symbol} = {level:g}{unit}")
     style.note(ax, ", ".join(constants))
 
 
@@ -173,15 +180,16 @@ def _check(found: Any) -> None:
     import xarray as xr
 
     if not isinstance(found, xr.Dataset) or not {"peak", "outcome", "certified"} <= set(found.data_vars):
-        raise WrongType("found", "be a dataset as rocking_spectrum gives it", found)
+        raise WrongType("result", "be a rocking spectrum, as rocking.rocking_spectrum gives it", found)
+    named_levels(found)
     peak = found.peak
     others = [str(name) for name in peak.dims if name not in LINES]
     if others:
-        remedy = f"select one value first, such as found.isel({others[0]}=0)"
+        remedy = f"select one value first, such as result.dataset.isel({others[0]}=0)"
         allowed = "vary over records, size and slenderness alone"
-        raise Refusal("found", allowed, ", ".join(others), remedy)
+        raise Refusal("result", allowed, ", ".join(others), remedy)
     if not {"size", "slenderness"} & set(peak.dims):
-        raise Refusal("found", "vary over size or slenderness", tuple(map(str, peak.dims)))
+        raise Refusal("result", "vary over size or slenderness", tuple(map(str, peak.dims)))
 
 
 def _axis(found: xr.Dataset, name: str, across: str) -> tuple[np.ndarray, str]:
@@ -260,9 +268,9 @@ def _key(ax: Axes, lines: list[Line], groups: dict[int, str] | None) -> None:
 def _map(found: xr.Dataset, ax: Axes | None, across: str, unit: str) -> Axes:
     """Draw the largest angle over size and slenderness."""
     if "record" in found.peak.dims:
-        remedy = "select one first, such as found.isel(record=0)"
+        remedy = "select one first, such as result.dataset.isel(record=0)"
         count = counted(found.sizes["record"], "record")
-        raise Refusal("found", "hold one record to be a map", count, remedy)
+        raise Refusal("result", "hold one record to be a map", count, remedy)
     places, x_label = _axis(found, "size", across)
     angles = np.degrees(found["slenderness"].values)
     peak = found.peak.transpose("slenderness", "size").values
@@ -308,17 +316,19 @@ VARIABLES = ("outcome", "certified", "margin", "impacts_since_rest")
 LABELS = {False: r"frequency of the pulse $\Omega = \omega/\alpha$", True: "frequency of the pulse (Hz)"}
 
 
-def overturning_spectrum(found: xr.Dataset, ax: Axes | None = None, block: Block | None = None) -> Axes:
+def overturning_spectrum(
+    result: OverturningSpectrum | xr.Dataset, ax: Axes | None = None, block: Block | None = None
+) -> Axes:
     """Plot the outcomes under one pulse over frequency and amplitude, with the mode of overturning in colour.
 
     Parameters
     ----------
-    found : xarray.Dataset
-        Result of `rocking.overturning_spectrum`, for one coefficient of restitution.
+    result : OverturningSpectrum or xarray.Dataset
+        Result of `rocking.overturning_spectrum`, or its dataset, for one coefficient of restitution.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Block for SI axes and a title. Default: normalised axes.
+        Block for SI axes and a title. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -327,7 +337,7 @@ def overturning_spectrum(found: xr.Dataset, ax: Axes | None = None, block: Block
     Raises
     ------
     TypeError
-        If `found` is not an overturning spectrum, or an argument has the wrong type.
+        If `result` is not an overturning spectrum, or an argument has the wrong type.
     ValueError
         If the coefficient of restitution varies.
 
@@ -345,15 +355,19 @@ def overturning_spectrum(found: xr.Dataset, ax: Axes | None = None, block: Block
     >>> import numpy as np
     >>> import rocking as rk
     >>> axes = {"amplitude": np.linspace(1, 10, 40), "frequency": np.linspace(1, 8, 40)}
-    >>> found = rk.overturning_spectrum("one-sine", **axes, restitution=0.9)
+    >>> system = rk.System(rk.Pulse("one-sine", amplitude=5.0, duration=1.0), restitution=0.9)
+    >>> found = rk.overturning_spectrum(system, **axes)
     >>> rk.plot.overturning_spectrum(found).get_ylabel()
     'amplitude $A$'
     """
+    found = result.dataset if isinstance(result, OverturningSpectrum) else result
     attributes = getattr(found, "attrs", {})
     if "pulse" not in attributes or any(name not in found for name in VARIABLES):
-        raise WrongType("found", "be a dataset of rocking.overturning_spectrum", found)
+        raise WrongType(
+            "result", "be an overturning spectrum, as rocking.overturning_spectrum gives it", result
+        )
     if found["outcome"].ndim != 2:
-        raise Refusal("found", "have one coefficient of restitution", dict(found.sizes), "select one value")
+        raise Refusal("result", "have one coefficient of restitution", dict(found.sizes), "select one value")
     turn_across, _ = parameter("frequency", block)
     turn_up, y_label = parameter("amplitude", block)
     ax = style.own(ax, height=3.4)

@@ -22,6 +22,7 @@ def section(
     result: Motion | ArrayLike,
     ax: Axes | None = None,
     block: Block | None = None,
+    *,
     phase: float | None = None,
     transient: int = 0,
 ) -> Axes:
@@ -115,7 +116,7 @@ QUARTERS = ("0", r"$\pi/2$", r"$\pi$", r"$3\pi/2$", r"$2\pi$")
 
 
 def impact_section(
-    result: Motion | np.ndarray, ax: Axes | None = None, block: Block | None = None, transient: int = 0
+    result: Motion | np.ndarray, ax: Axes | None = None, block: Block | None = None, *, transient: int = 0
 ) -> Axes:
     """Plot the impacts at Θ = 0: speed after the impact against forcing phase, one colour per side.
 

@@ -25,12 +25,12 @@ DECADES = (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0)
 MARGIN, BREAK = 1.3, 2.0
 
 
-def chaos_share(found: ChaosShare, ax: Axes | None = None) -> Axes:
+def chaos_share(result: ChaosShare, ax: Axes | None = None) -> Axes:
     """Plot the fraction of chaotic responses with its 95 % interval over the coefficient of restitution e.
 
     Parameters
     ----------
-    found : ChaosShare
+    result : ChaosShare
         Result of `rocking.chaos_share`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -42,7 +42,7 @@ def chaos_share(found: ChaosShare, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError
-        If `found` is not a ChaosShare, or `ax` is not Axes.
+        If `result` is not a ChaosShare, or `ax` is not Axes.
 
     Notes
     -----
@@ -56,13 +56,14 @@ def chaos_share(found: ChaosShare, ax: Axes | None = None) -> Axes:
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.chaos_share(restitution=[0.5, 0.9], samples=20)
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.9)
+    >>> found = rk.chaos_share(system, restitution=[0.5, 0.9], samples=20)
     >>> rk.plot.chaos_share(found).get_xlabel()
     '$1 - e$, coefficient of restitution $e$'
     """
-    instance("found", found, ChaosShare)
+    instance("result", result, ChaosShare)
     ax = style.own(ax)
-    data = found.dataset
+    data = result.dataset
     share, low, high = (100 * data[name].values for name in ("chaotic", "chaotic_low", "chaotic_high"))
     across, conservative = _places(data.restitution.values)
     colour = COLOURS[Kind.CHAOTIC]
@@ -103,7 +104,7 @@ def chaos_share(found: ChaosShare, ax: Axes | None = None) -> Axes:
         FuncFormatter(lambda place, _: "0" if place == conservative else f"{place:g}")
     )
     ax.xaxis.set_minor_locator(NullLocator())
-    counts = sorted({each.of for each in found.shares})
+    counts = sorted({each.of for each in result.shares})
     style.note(ax, "$n = $ " + "–".join(f"{count:,}" for count in dict.fromkeys((counts[0], counts[-1]))))
     return ax
 
@@ -117,12 +118,12 @@ def _places(restitution: np.ndarray) -> tuple[np.ndarray, float | None]:
     return np.where(loss > 0.0, loss, place), float(place)
 
 
-def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | None = None) -> Axes:
+def overturning(result: OverturningCurve, ax: Axes | None = None, block: Block | None = None) -> Axes:
     """Plot the lowest overturning amplitude over one quantity, with the fraction of overturning phases in grey.
 
     Parameters
     ----------
-    found : OverturningCurve
+    result : OverturningCurve
         Result of `overturning_amplitude`. If no quantity varies, the fraction is drawn over the amplitude.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -136,7 +137,7 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
     Raises
     ------
     TypeError
-        If `found` is not an OverturningCurve, or an argument has the wrong type.
+        If `result` is not an OverturningCurve, or an argument has the wrong type.
     ValueError
         If two or more quantities vary.
 
@@ -149,17 +150,16 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
     --------
     >>> import numpy as np
     >>> import rocking as rk
-    >>> found = rk.overturning_amplitude(
-    ...     period=[1.5, 2.0, 2.5], restitution=0.925, amplitude=np.linspace(1, 4, 31), phases=2
-    ... )
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.overturning_amplitude(system, period=[1.5, 2.0], amplitude=np.linspace(1, 4, 31), phases=2)
     >>> rk.plot.overturning(found).get_xlabel().startswith("period $T$")
     True
     """
-    instance("found", found, OverturningCurve)
-    data = found.dataset
+    instance("result", result, OverturningCurve)
+    data = result.dataset
     if data.lowest.ndim > 1:
         over = " and ".join(map(str, data.lowest.dims))
-        raise Refusal("found", "vary over one quantity to be drawn", over, "select one value first")
+        raise Refusal("result", "vary over one quantity to be drawn", over, "select one value first")
     level, y_label = parameter("amplitude", block)
     ax = style.own(ax, height=3.3)
     style.block_title(ax, block)
@@ -235,12 +235,12 @@ LEAST = 1e-4
 """Smallest fraction with a row in the legend."""
 
 
-def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
+def repeatability(result: Repeatability, ax: Axes | None = None) -> Axes:
     """Plot the fraction of runs with each outcome and its 95 % interval, the largest at the top, up to twelve.
 
     Parameters
     ----------
-    found : Repeatability
+    result : Repeatability
         Result of `rocking.repeatability`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -252,7 +252,7 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError
-        If `found` is not a Repeatability, or `ax` is not Axes.
+        If `result` is not a Repeatability, or `ax` is not Axes.
 
     See Also
     --------
@@ -266,20 +266,20 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     >>> len(rk.plot.repeatability(rk.repeatability(system, samples=100)).patches)
     2
     """
-    instance("found", found, Repeatability)
+    instance("result", result, Repeatability)
     ax = style.own(ax)
-    pairs = list(found.responses.items())[:SHOWN]
+    pairs = list(result.responses.items())[:SHOWN]
     up = np.arange(len(pairs))
     values = np.array([share.value for _, share in pairs])
     ends = np.array([[share.value - share.low, share.high - share.value] for _, share in pairs]).T
     hues = [_colour(name) for name, _ in pairs]
     error = {"elinewidth": style.LINE, "capsize": 2.5, "ecolor": style.GUIDE}
     ax.barh(up, 100 * values, xerr=100 * ends, color=hues, height=0.7, error_kw=error, gid="shares")
-    style.label(ax, f"fraction of {found.repeats.of:,} runs (%)", "")
+    style.label(ax, f"fraction of {result.repeats.of:,} runs (%)", "")
     ax.set_yticks(up, [name for name, _ in pairs])
     ax.invert_yaxis()
     ax.set_xlim(0.0, 100.0)
-    style.note(ax, f"inputs vary by up to {100 * found.relative:.3g} %")
+    style.note(ax, f"inputs vary by up to {100 * result.relative:.3g} %")
     return ax
 
 
@@ -291,12 +291,12 @@ def _colour(name: str) -> str:
     return look_at(Kind.PERIODIC, int(periodic[1]), not periodic[2]).colour
 
 
-def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
+def repeatability_map(result: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     """Plot a map of certain outcomes, one colour per type of response; uncertain points have a separate colour.
 
     Parameters
     ----------
-    found : RepeatabilityMap
+    result : RepeatabilityMap
         Result of `rocking.repeatability_map`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -308,7 +308,7 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError
-        If `found` is not a RepeatabilityMap, or `ax` is not Axes.
+        If `result` is not a RepeatabilityMap, or `ax` is not Axes.
 
     Notes
     -----
@@ -324,15 +324,16 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     --------
     >>> import numpy as np
     >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     >>> found = rk.repeatability_map(
-    ...     amplitude=np.linspace(1, 13, 4), period=np.linspace(0.5, 2, 4), restitution=0.925, samples=4
+    ...     system, amplitude=np.linspace(1, 13, 4), period=np.linspace(0.5, 2, 4), samples=4
     ... )
     >>> rk.plot.repeatability_map(found).get_xlabel().startswith("period $T$")
     True
     """
-    instance("found", found, RepeatabilityMap)
+    instance("result", result, RepeatabilityMap)
     ax = style.own(ax, height=3.6)
-    data, count = found.dataset, len(Kind)
+    data, count = result.dataset, len(Kind)
     up, across = (data[name].values for name in data.kind.dims)
     seen, unknown = data.agreeing.values, data.undetermined.values
     values = np.where(unknown > 0.0, Kind.UNDETERMINED.code, data.kind.values)

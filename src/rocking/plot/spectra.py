@@ -78,9 +78,10 @@ MAX_NAMES = 100
 
 
 def spectrum(
-    density: SpectralDensity,
+    result: SpectralDensity,
     ax: Axes | None = None,
     block: Block | None = None,
+    *,
     highest: float = 3.0,
     names: int = 12,
 ) -> Axes:
@@ -88,7 +89,7 @@ def spectrum(
 
     Parameters
     ----------
-    density : SpectralDensity
+    result : SpectralDensity
         Result of `rocking.spectral_density`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -128,31 +129,31 @@ def spectrum(
     >>> [text.get_text() for text in ax.texts]
     ['$f/3$', '$f$', '$5f/3$', '$7f/3$', '$3f$']
     """
-    instance("density", density, SpectralDensity)
+    instance("result", result, SpectralDensity)
     highest = within("highest", highest, 0.1, 1000.0)
     names = whole("names", names, 0, MAX_NAMES)
     shown = quantities(block)
     ax = style.own(ax, height=2.6)
-    last = min(highest * (1 + 1e-9), density.forcing_multiples[-1])
-    drawn = density.forcing_multiples <= last
+    last = min(highest * (1 + 1e-9), result.forcing_multiples[-1])
+    drawn = result.forcing_multiples <= last
     drawn[0] = False  # the mean is not part of the density
-    heights = shown.density(density.density[drawn])
+    heights = shown.density(result.density[drawn])
     ax.plot(
-        shown.frequency(density.frequency[drawn]),
+        shown.frequency(result.frequency[drawn]),
         heights,
         color=style.MOTION,
         linewidth=0.8 * style.LINE,
         rasterized=int(drawn.sum()) > style.MAX_CORNERS,
         gid="spectrum",
     )
-    forcing = shown.frequency(1 / density.system.periodic.period)
+    forcing = shown.frequency(1 / result.system.periodic.period)
     for multiple in range(1, math.floor(last) + 1):
         ax.axvline(multiple * forcing, color=style.GUIDE, linewidth=style.THIN, linestyle=":", zorder=0)
     ax.set_yscale("log")
     style.label(ax, shown.frequency_label, shown.density_label)
     _scale(ax, heights)
     ax.set_xlim(0.0, last * forcing * 1.02)
-    chosen, upright = _apart(density.peaks, names, ax, last / density.system.periodic.period)
+    chosen, upright = _apart(result.peaks, names, ax, last / result.system.periodic.period)
     for peak in chosen:
         ax.annotate(
             f"${peak.name}$",

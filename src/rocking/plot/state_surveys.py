@@ -29,12 +29,12 @@ LEAST = 1e-4
 HATCH = "////"
 
 
-def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) -> Axes:
+def basins(result: BasinMap, ax: Axes | None = None, block: Block | None = None) -> Axes:
     """Plot basins of attraction in the colours of the types of response; attractors of one type have different shades.
 
     Parameters
     ----------
-    found : BasinMap
+    result : BasinMap
         Result of `basin_map`, over a grid or of random initial states.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -48,7 +48,7 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
     Raises
     ------
     TypeError
-        If `found` is not a BasinMap, or an argument has the wrong type.
+        If `result` is not a BasinMap, or an argument has the wrong type.
 
     See Also
     --------
@@ -70,9 +70,9 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
     >>> len(ax.get_legend().get_patches())
     2
     """
-    instance("found", found, BasinMap)
-    hues = colours(found.attractors)
-    places = found.dataset.attractor
+    instance("result", result, BasinMap)
+    hues = colours(result.attractors)
+    places = result.dataset.attractor
     (turn_across, x_label), (turn_up, y_label) = (parameter(name, block) for name in ("angle", "velocity"))
     ax = style.own(ax, height=4.0)
     map_ = ListedColormap(hues)
@@ -84,7 +84,7 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
         ax.pcolormesh(
             across, up, drawn.values, cmap=map_, norm=norm, shading="nearest", rasterized=True, gid="basins"
         )
-        for number, each in enumerate(found.attractors):
+        for number, each in enumerate(result.attractors):
             if each.kind is Kind.UNDETERMINED:
                 where = (drawn.values == number).astype(float)
                 ax.contourf(across, up, where, [0.5, 1.5], colors="none", hatches=[HATCH])
@@ -102,7 +102,7 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
         )
     style.label(ax, x_label, y_label)
     style.block_title(ax, block)
-    _legend(ax, found, hues)
+    _legend(ax, result, hues)
     return ax
 
 
@@ -133,12 +133,12 @@ def _legend(ax: Axes, found: BasinMap, hues: list) -> None:
     style.patches(ax, handles, 1 if max(len(each.name) for each, _, _ in named) > MAX_LENGTH else 2)
 
 
-def safe_basin(found: SafeBasin, ax: Axes | None = None, block: Block | None = None) -> Axes:
+def safe_basin(result: SafeBasin, ax: Axes | None = None, block: Block | None = None) -> Axes:
     """Plot the fraction of initial states that do not overturn, with its 95 % interval, over the amplitude.
 
     Parameters
     ----------
-    found : SafeBasin
+    result : SafeBasin
         Result of `rocking.safe_basin`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
@@ -152,7 +152,7 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None, block: Block | None = N
     Raises
     ------
     TypeError
-        If `found` is not a SafeBasin, or an argument has the wrong type.
+        If `result` is not a SafeBasin, or an argument has the wrong type.
 
     See Also
     --------
@@ -162,15 +162,16 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None, block: Block | None = N
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.safe_basin(amplitude=[3.3, 3.7, 5.5], period=1.0, restitution=0.8, samples=200)
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.8)
+    >>> found = rk.safe_basin(system, amplitude=[3.3, 3.7, 5.5], samples=200)
     >>> rk.plot.safe_basin(found).get_ylabel()
     'safe fraction (%)'
     """
-    instance("found", found, SafeBasin)
+    instance("result", result, SafeBasin)
     level, x_label = parameter("amplitude", block)
     ax = style.own(ax, height=2.9)
     style.block_title(ax, block)
-    data = found.dataset
+    data = result.dataset
     across = level(data.amplitude.values)
     ax.fill_between(
         across, 100 * data.safe_low, 100 * data.safe_high, color=style.MOTION, alpha=0.3, linewidth=0
@@ -186,15 +187,15 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None, block: Block | None = N
         clip_on=False,  # points at 100 % lie on the frame
         gid="safe",
     )
-    if np.isfinite(found.heteroclinic_amplitude):
+    if np.isfinite(result.heteroclinic_amplitude):
         ax.axvline(
-            level(found.heteroclinic_amplitude),
+            level(result.heteroclinic_amplitude),
             color=style.IMPACT,
             linewidth=style.LINE,
             label="exact tangency $A^*$",
         )
         ax.axvline(
-            level(found.melnikov_amplitude),
+            level(result.melnikov_amplitude),
             color=style.INK,
             linewidth=style.LINE,
             linestyle=(0, (5, 2)),

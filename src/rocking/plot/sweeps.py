@@ -41,9 +41,10 @@ MARK = 0.6
 def orbit_diagram(
     result: OrbitDiagram,
     ax: Axes | None = None,
+    block: Block | None = None,
+    *,
     branches: Sequence[Branch] = (),
     quantity: str = "angle",
-    block: Block | None = None,
 ) -> Axes:
     """Plot an orbit (bifurcation) diagram; bars at the bottom mark overturning.
 
@@ -53,13 +54,13 @@ def orbit_diagram(
         Result of `rocking.orbit_diagram`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
+    block : Block, optional
+        Block for SI axes. Default: that of the result. None: normalised axes.
     branches : sequence of Branch
         Branches of periodic orbits over the same parameter, from `rocking.continue_orbit`: stable solid, unstable dashed,
         neutral dash-dotted. Default: none.
     quantity : {"angle", "velocity", "peak"}
         Quantity to draw: Θ or Θ' at the section, or the largest |Θ| between sections. Default: "angle".
-    block : Block, optional
-        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -87,7 +88,7 @@ def orbit_diagram(
     --------
     >>> import numpy as np, rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
-    >>> ax = rk.plot.orbit_diagram(rk.orbit_diagram(system, "amplitude", np.linspace(10.4, 10.8, 40), sweep="up"))
+    >>> ax = rk.plot.orbit_diagram(rk.orbit_diagram(system, amplitude=np.linspace(10.4, 10.8, 40), sweep="up"))
     >>> ax.get_xlabel(), len(ax.lines[0].get_xdata()) > 250
     ('amplitude $A$', True)
     """
@@ -245,7 +246,7 @@ def response_diagram(result: ResponseDiagram, block: Block | None = None) -> Fig
     --------
     >>> import numpy as np, rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=9.0, period=1.721328), restitution=0.8)
-    >>> found = rk.response_diagram(system, "amplitude", np.linspace(10.0, 11.0, 21))
+    >>> found = rk.response_diagram(system, amplitude=np.linspace(10.0, 11.0, 21))
     >>> [text.get_text() for text in rk.plot.response_diagram(found).axes[2].get_legend().get_texts()]
     ['period 1, asymmetric', 'even period', 'chaotic', 'overturned']
     """

@@ -265,9 +265,10 @@ def modes(
     restitution: float,
     n: int = 1,
     ax: Axes | None = None,
+    block: Block | None = None,
+    *,
     quantity: str = "velocity",
     amplitude: float | None = None,
-    block: Block | None = None,
 ) -> Axes:
     """Plot speed or phase of the symmetric (1, n) modes over the amplitude: stable solid, unstable dashed.
 
@@ -281,13 +282,13 @@ def modes(
         Number of forcing cycles per response, odd. Default: 1.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
+    block : Block, optional
+        Block for SI axes. Default: normalised axes.
     quantity : str
         "velocity", the velocity V after the impact, or "phase", the forcing phase φ at the impact, in (−π, π]. Default:
         "velocity".
     amplitude : float, optional
         Amplitude A to mark by a line, with a ring on each mode. Default: none.
-    block : Block, optional
-        Block for SI axes. Default: normalised axes.
 
     Returns
     -------

@@ -46,12 +46,12 @@ LAST = 200
 OTHERWISE = "the run shown ends differently"
 
 
-def verdict(verdict: Verdict, block: Block | None = None, *, title: bool = True) -> Figure:
+def verdict(result: Verdict, block: Block | None = None, *, title: bool = True) -> Figure:
     """Plot the last cycles of a response, its phase portrait and its section, below the text of its verdict.
 
     Parameters
     ----------
-    verdict : Verdict
+    result : Verdict
         Result of `classify`.
     block : Block, optional
         Block for SI axes. Default: that of the result. None: normalised axes.
@@ -65,7 +65,7 @@ def verdict(verdict: Verdict, block: Block | None = None, *, title: bool = True)
     Raises
     ------
     TypeError
-        If `verdict` is not a Verdict, `block` is not a Block, or `title` is not a bool.
+        If `result` is not a Verdict, `block` is not a Block, or `title` is not a bool.
 
     See Also
     --------
@@ -87,12 +87,12 @@ def verdict(verdict: Verdict, block: Block | None = None, *, title: bool = True)
     >>> len(rk.plot.verdict(rk.classify(system)).axes)
     3
     """
-    instance("verdict", verdict, Verdict)
+    instance("result", result, Verdict)
     quantities(block)  # refused before there is a figure
     instance("title", title, bool)
-    figure = _figure(verdict, block)
+    figure = _figure(result, block)
     if title:
-        sentence = textwrap.fill(str(verdict), LETTERS)
+        sentence = textwrap.fill(str(result), LETTERS)
         figure.suptitle(sentence, x=3 * BAND, ha="left", fontsize=style.SMALL, color=style.INK)
     return figure
 
@@ -127,8 +127,8 @@ def _motion(verdict: Verdict, history: Axes, portrait: Axes, block: Block | None
     period = motion.system.periodic.period
     rests = motion.outcome is Outcome.AT_REST
     window = (0.0, min(settled(motion) / period, motion.cycles)) if rests else None
-    time_history(motion, history, block, window)
-    phase_portrait(motion, portrait, block, window)
+    time_history(motion, history, block, cycles=window)
+    phase_portrait(motion, portrait, block, cycles=window)
     if verdict.kind in ENDS and motion.outcome is Outcome.BOUNDED:
         style.note(history, OTHERWISE)
     if verdict.period and not _repeats(motion.section()[-verdict.period - 1 :], verdict.period):
@@ -182,7 +182,7 @@ def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
         if orbit is None:
             late = _after(verdict, min(verdict.cycles, LATEST))
             motion = simulate(verdict.system, late, cycles=POINTS, record="section")
-            section(motion.section(), ax, block, phase)
+            section(motion.section(), ax, block, phase=phase)
             last = motion.section()[-LAST:]
             if verdict.kind is Kind.CHAOTIC and any(_repeats(last, n) for n in range(1, LAST // 2)):
                 style.title(ax, OTHERWISE)
@@ -195,7 +195,7 @@ def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
     # a superstable orbit has the phase of a release, at which the block rests; a quarter period later it moves
     phase = (orbit.phase + 0.5 * math.pi) % math.tau if orbit.superstable else orbit.phase
     points = motion.section(phase)
-    section(points[: -orbit.period], ax, block, phase)
+    section(points[: -orbit.period], ax, block, phase=phase)
     _ring(ax, _on(orbit, points), block, look_of(verdict).colour)
 
 
@@ -226,20 +226,20 @@ def _ring(ax: Axes, points: NDArray, block: Block | None, colour: str) -> None:
 
 
 def convergence(
-    spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: int = 1, block: Block | None = None
+    result: LyapunovSpectrum, ax: Axes | None = None, block: Block | None = None, *, exponent: int = 1
 ) -> Axes:
     """Plot the running average of a Lyapunov exponent against the number of cycles, with its error as a band.
 
     Parameters
     ----------
-    spectrum : LyapunovSpectrum
+    result : LyapunovSpectrum
         Result of `lyapunov`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
-    exponent : int
-        1 for λ₁, 2 for λ₂. Default: 1.
     block : Block, optional
         Block for exponents per second. Default: exponents per τ.
+    exponent : int
+        1 for λ₁, 2 for λ₂. Default: 1.
 
     Returns
     -------
@@ -248,7 +248,7 @@ def convergence(
     Raises
     ------
     TypeError
-        If `spectrum` is not a LyapunovSpectrum, or an argument has the wrong type.
+        If `result` is not a LyapunovSpectrum, or an argument has the wrong type.
     ValueError
         If `exponent` is neither 1 nor 2.
 
@@ -269,16 +269,16 @@ def convergence(
     >>> ax.get_xscale(), len(ax.lines)
     ('log', 2)
     """
-    instance("spectrum", spectrum, LyapunovSpectrum)
+    instance("result", result, LyapunovSpectrum)
     row = whole("exponent", exponent, 1, 2) - 1
     shown = quantities(block)
-    final, error = (float(shown.frequency(each[row])) for each in (spectrum.values, spectrum.errors))
+    final, error = (float(shown.frequency(each[row])) for each in (result.values, result.errors))
     ax = style.own(ax)
     ax.set_xscale("log")
     if final == -math.inf:
-        _superstable(ax, spectrum.cycles)
+        _superstable(ax, result.cycles)
     else:
-        _running(ax, spectrum, row, shown)
+        _running(ax, result, row, shown)
     unit = r"per $\tau$" if block is None else "(1/s)"
     style.label(ax, "cycles averaged over", rf"exponent $\lambda_{exponent}$ {unit}")
     style.logarithmic(ax.xaxis)

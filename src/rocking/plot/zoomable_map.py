@@ -18,6 +18,7 @@ from PIL import Image
 from rocking.model.block import Block
 from rocking.model.files import TILES, replacing_folder
 from rocking.model.package import VERSION
+from rocking.model.survey_results import ParametricMap
 from rocking.model.text import percent
 from rocking.plot import palette, style
 from rocking.plot.axes import parameter
@@ -36,7 +37,7 @@ HATCHED = {"dark": [number for number, look in enumerate(LOOKS) if look.hatch ==
 
 
 def tiles(
-    found: xr.Dataset | str | os.PathLike[str] | Sequence[xr.Dataset],
+    result: ParametricMap | xr.Dataset | str | os.PathLike[str] | Sequence[xr.Dataset],
     folder: str | os.PathLike[str],
     block: Block | None = None,
 ) -> Path:
@@ -44,12 +45,12 @@ def tiles(
 
     Parameters
     ----------
-    found : xarray.Dataset, path, or sequence of xarray.Dataset
+    result : ParametricMap, xarray.Dataset, path, or sequence of xarray.Dataset
         Map as in `parametric_map`; it need not fit in memory.
     folder : path
         New or empty folder, or a folder written by this function, which is then replaced completely.
     block : Block, optional
-        Block for SI axes. Default: the normalised axes of the map.
+        Block for SI axes. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -59,11 +60,11 @@ def tiles(
     Raises
     ------
     TypeError
-        If `found` is not a map over two axes.
+        If `result` is not a map over two axes.
     ValueError
-        If the folder holds other files, or `found` is not a store.
+        If the folder holds other files, or `result` is not a store.
     ImportError
-        If `found` is a path, and the extra ``store`` is not installed.
+        If `result` is a path, and the extra ``store`` is not installed.
     OSError
         If the folder cannot be written.
 
@@ -82,15 +83,14 @@ def tiles(
     --------
     >>> import numpy as np, tempfile
     >>> import rocking as rk
-    >>> found = rk.parametric_map(
-    ...     amplitude=np.linspace(0, 16, 20), period=np.linspace(0.2, 3, 20), restitution=0.925
-    ... )
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.parametric_map(system, amplitude=np.linspace(0, 16, 20), period=np.linspace(0.2, 3, 20))
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     page = rk.plot.tiles(found, f"{folder}/map")
     ...     sorted(path.name for path in page.parent.iterdir())
     ['index.html', 'tiles']
     """
-    read = Responses(found)
+    read = Responses(result)
     with replacing_folder("folder", folder, TILES) as partial:
         pyramid = Pyramid(partial / "tiles", read.up.size, read.across.size)
         counts = np.zeros(NONE + 1, np.int64)

@@ -22,7 +22,16 @@ from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import HarmonicSpec, Points, asked_of, coordinate, points, points_of, question
+from rocking.survey.spec import (
+    HarmonicSpec,
+    Points,
+    by_period,
+    coordinate,
+    fixed_quantities,
+    harmonic_spec,
+    points,
+    points_of,
+)
 from rocking.survey.uncertainty_exponent import WIDTHS, Boundaries
 from rocking.survey.verdict_measures import interval_variables, outcome
 from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
@@ -126,10 +135,11 @@ def basin_map(
     refuse_if(runs == 0 and width < math.inf, "boundary_runs", "be positive to be added to", runs)
     random = generator(seed)
     if samples is None:
-        asked = question({**asked_of(system), "angle": angle, "velocity": velocity}, 2, "a basin map")
-        found = run_survey(asked, measure, store, executor, progress=progress, repair=repair).load()
-        ends = {name: (values[0], values[-1]) for name, values in asked.axes.items()}
-        starts = grid_starts(asked)
+        axes = {"angle": angle, "velocity": velocity}
+        spec = harmonic_spec(by_period(system), axes, 2, "a basin map")
+        found = run_survey(spec, measure, store, executor, progress=progress, repair=repair).load()
+        ends = {name: (values[0], values[-1]) for name, values in spec.axes.items()}
+        starts = grid_starts(spec)
     else:
         if store is not None:
             raise WrongType("store", "be used without {samples}, because it holds a grid", str(store))
@@ -158,9 +168,9 @@ def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[S
     )
 
 
-def grid_starts(asked: HarmonicSpec) -> np.ndarray:
+def grid_starts(spec: HarmonicSpec) -> np.ndarray:
     """Return the initial states (n, 2) of a grid, in C order."""
-    grid = dict(zip(asked.axes, np.meshgrid(*asked.axes.values(), indexing="ij"), strict=True))
+    grid = dict(zip(spec.axes, np.meshgrid(*spec.axes.values(), indexing="ij"), strict=True))
     return np.column_stack([grid["angle"].ravel(), grid["velocity"].ravel()])
 
 
@@ -180,7 +190,7 @@ def _random_dataset(system: System, starts: np.ndarray, measure: Measurement, an
             name: ("sample", starts[:, column], coordinate(name))
             for column, name in enumerate(("angle", "velocity"))
         },
-        attributes(HarmonicSpec({}, asked_of(system)), measure),
+        attributes(HarmonicSpec({}, by_period(system)), measure),
     )
 
 
@@ -199,15 +209,9 @@ SAFE_BASIN = "Safe basin of a free-standing block on a shaking base"
 
 
 def safe_basin(
+    system: System,
     *,
     amplitude: Any,
-    period: float | None = None,
-    frequency: float | None = None,
-    restitution: float,
-    phase: float = 0.0,
-    brace_angle: float | None = None,
-    brace_restitution: float = 1.0,
-    critical_angle: float | None = None,
     angle: Any = (-1.0, 1.0),
     velocity: Any = (-1.0, 1.0),
     samples: int = 10_000,
@@ -228,10 +232,10 @@ def safe_basin(
 
     Parameters
     ----------
+    system : System
+        Block on a harmonic base, of any amplitude.
     amplitude : array (n,)
         Amplitudes A, ascending.
-    period, frequency, restitution, phase, brace_angle, brace_restitution, critical_angle : float
-        As in `Harmonic` (either `period` or `frequency`), `System` and `Braces`.
     angle, velocity : pair
         Ranges (low, high) from which the initial states (Θ, Θ') are drawn. Default: (−1, 1).
     samples : int
@@ -271,53 +275,42 @@ def safe_basin(
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.safe_basin(amplitude=[3.3, 3.7, 5.5], period=1.0, restitution=0.8, samples=500)
+    >>> system = rk.System(rk.Harmonic(amplitude=3.5, period=1.0), restitution=0.8)
+    >>> found = rk.safe_basin(system, amplitude=[3.3, 3.7, 5.5], samples=500)
     >>> found.dataset.safe.dims, round(found.heteroclinic_amplitude, 4)
     (('amplitude',), 3.6878)
     """
     measure = outcome(max_cycles, max_period, SAFE_BASIN)
-    given = {
-        "amplitude": amplitude,
-        "period": period,
-        "frequency": frequency,
-        "restitution": restitution,
-        "phase": phase,
-        "brace_angle": brace_angle,
-        "brace_restitution": brace_restitution,
-        "critical_angle": critical_angle,
-    }
-    asked = question(given, 1, "a safe basin")
-    if "amplitude" not in asked.axes:
-        raise WrongType("amplitude", "be an axis of amplitudes, ascending", amplitude)
-    reach = ANGLE.range if brace_angle is None else (-asked.fixed["brace_angle"], asked.fixed["brace_angle"])
+    spec = harmonic_spec(fixed_quantities(system), {"amplitude": amplitude}, 1, "a safe basin")
+    reach = ANGLE.range if system.braces is None else (-system.braces.angle, system.braces.angle)
     low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
     starts = generator(seed).uniform(low, high, (whole("samples", samples, 1, MAX_SAMPLES), 2))
-    amplitudes, kinds = asked.axes["amplitude"].tolist(), []
+    amplitudes, kinds = spec.axes["amplitude"].tolist(), []
     total = len(amplitudes) * len(starts)
     with Bar(total, "initial states", shown=instance("progress", progress, bool)) as bar:
         for value in amplitudes:
-            kinds.append(sampled(_placed(asked, value, starts), measure, executor)["kind"])
+            kinds.append(sampled(_placed(spec, value, starts), measure, executor)["kind"])
             bar.advance(len(starts))
     drawn = {"seed": seed, "angle_range": [low[0], high[0]], "velocity_range": [low[1], high[1]]}
-    return _summed_up(asked, measure, kinds, drawn)
+    return SafeBasin(*_summed_up(spec, measure, kinds, drawn), system=system)
 
 
-def _placed(asked: HarmonicSpec, amplitude: float, starts: np.ndarray) -> Points:
-    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked.fixed | {"amplitude": amplitude})
+def _placed(spec: HarmonicSpec, amplitude: float, starts: np.ndarray) -> Points:
+    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, spec.fixed | {"amplitude": amplitude})
 
 
 def _summed_up(
-    asked: HarmonicSpec, measure: Any, kinds: list[np.ndarray], drawn: dict[str, Any]
-) -> SafeBasin:
+    spec: HarmonicSpec, measure: Any, kinds: list[np.ndarray], drawn: dict[str, Any]
+) -> tuple[xr.Dataset, tuple[Share, ...], float, float]:
     import xarray as xr
 
     shares = tuple(Share(np.count_nonzero(each != kernel.OVERTURNS), each.size) for each in kinds)
     open_ones = np.array([np.mean(each == kernel.UNDETERMINED) for each in kinds])
-    period = asked.fixed.get("period") or 2.0 * np.pi / asked.fixed["frequency"]
+    period = spec.fixed.get("period") or 2.0 * np.pi / spec.fixed["frequency"]
     exact = first_order = np.nan
-    if "brace_angle" not in asked.fixed and not asked.full:
-        exact = heteroclinic_amplitude(period, asked.fixed["restitution"])
-        first_order = melnikov_amplitude(period, asked.fixed["restitution"])
+    if "brace_angle" not in spec.fixed and not spec.full:
+        exact = heteroclinic_amplitude(period, spec.fixed["restitution"])
+        first_order = melnikov_amplitude(period, spec.fixed["restitution"])
     variables = interval_variables(
         "safe", shares, "amplitude", "fraction of the initial states that do not overturn"
     )
@@ -326,11 +319,11 @@ def _summed_up(
         open_ones,
         {"long_name": "fraction of the initial states whose response is undetermined", "units": "1"},
     )
-    metadata = attributes(asked, measure) | {
+    metadata = attributes(spec, measure) | {
         "samples": shares[0].of,
         **drawn,
         "heteroclinic_amplitude": exact,
         "melnikov_amplitude": first_order,
     }
-    coordinates = {"amplitude": ("amplitude", asked.axes["amplitude"], coordinate("amplitude"))}
-    return SafeBasin(xr.Dataset(variables, coordinates, metadata), shares, exact, first_order)
+    coordinates = {"amplitude": ("amplitude", spec.axes["amplitude"], coordinate("amplitude"))}
+    return xr.Dataset(variables, coordinates, metadata), shares, exact, first_order

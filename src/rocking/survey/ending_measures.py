@@ -17,7 +17,7 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import RecordSet
 from rocking.model.verdict import Outcome
 from rocking.survey.measurement import Arrays, Measurement, Variable
-from rocking.survey.spec import Pulses, Runs, motion_question
+from rocking.survey.spec import Pulses, Runs, motion_spec
 
 METHOD = 7
 """Version of the method; a change of the results increases it."""
@@ -213,8 +213,8 @@ class BlockEndings:
         self.scale = scale
         self.pulse = base if isinstance(base, Pulse) and base.cosine is not None else None
         motion = base if isinstance(base, GroundMotion) else _samples(base)
-        given = {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "scale": scale}
-        self.asked = motion_question(RecordSet(motion), given, intensity="scale", model=model)
+        given = {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "level": scale}
+        self.asked = motion_spec(RecordSet(motion), given, intensity="scale", model=model)
 
     def at(self, size: np.ndarray, slenderness: np.ndarray, stop: np.ndarray) -> Arrays | None:
         """Return outcome, certified, peak, margin and impacts at n points; None if another thread sets `stop` (1,).

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
@@ -11,32 +10,10 @@ import numpy as np
 
 from rocking.model.block import Block
 from rocking.model.files import check_writable, replacing_hdf5
-from rocking.model.table import Table, flags, tables_of
+from rocking.model.table import Table, parts, tables_of
 
 if TYPE_CHECKING:
     import xarray as xr
-
-
-AT_ONCE = 1 << 20
-"""Approximate number of points in memory at a time."""
-
-
-def parts(found: xr.Dataset) -> Iterator[xr.Dataset]:
-    """Yield the dataset in parts along its first axis, each in memory."""
-    first = next(iter(found.data_vars.values())).dims[0]
-    count = found.sizes[first]
-    step = max(AT_ONCE * count // math.prod(found.sizes.values()), 1)
-    for begin in range(0, count, step):
-        yield found.isel({first: slice(begin, begin + step)}).load()
-
-
-def counts(found: xr.Dataset, name: str) -> dict[str, int]:
-    """Return the number of points with each flag of a variable, by the meaning of the flag."""
-    meanings = flags(found[name].attrs)
-    total = np.zeros(256, np.int64)
-    for part in parts(found[[name]]):
-        total += np.bincount(part[name].values.ravel(), minlength=256)
-    return {meaning: int(total[value]) for value, meaning in meanings.items()}
 
 
 def tables(found: xr.Dataset, block: Block | None = None) -> Iterator[Table]:

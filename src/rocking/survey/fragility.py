@@ -16,7 +16,7 @@ from rocking.model.record_set import RecordSet, record_set
 from rocking.model.validation import Refusal, reals, refuse_if, whole, within
 from rocking.survey.ending_measures import UNDECIDED, ending
 from rocking.survey.fragility_curve import Fractions, clustered_fractions, fitted, two_level_weights
-from rocking.survey.incremental_dynamic_analysis import block_question, of_block
+from rocking.survey.incremental_dynamic_analysis import block_spec, of_block
 from rocking.survey.random_points import MAX_SEED, UncertainMotionSpec, block_samples, fingerprints
 from rocking.survey.run_survey import run_survey
 
@@ -163,7 +163,7 @@ def fragility(
         count,
         "give {height_spread}, {width_spread} or {restitution_spread}",
     )
-    asked = block_question(chosen, block, levels, intensity, model=model, one_level=True)
+    asked = block_spec(chosen, block, levels, intensity, model=model, one_level=True)
     if any(spreads.values()):
         asked = _uncertain(asked, chosen, block, count, spreads, seed)
     found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
@@ -188,7 +188,7 @@ def _uncertain(
     asked: MotionSpec, records: RecordSet, block: Block, count: int, spreads: dict[str, float], seed: int
 ) -> UncertainMotionSpec:
     axes = dict(asked.axes)
-    levels = {"scale": axes.pop("scale")} if "scale" in axes else {}
+    levels = {"level": axes.pop("level")} if "level" in axes else {}
     return UncertainMotionSpec(
         axes | {"sample": np.arange(float(count))} | levels,
         asked.fixed,
@@ -206,8 +206,8 @@ def _estimated(
     runs: xr.Dataset, limits: np.ndarray, weights: np.ndarray, order: np.ndarray, block: Block
 ) -> Fragility:
     """Return fractions, fits and their intervals; the bootstrap takes the records in a given order."""
-    kept = runs if "sample" in runs.dims else runs.expand_dims(sample=[0.0])
-    kept = kept.isel(record=order).transpose("record", "sample", "scale", ...)
+    kept = runs if "sample" in runs.dims else runs.expand_dims(sample=[0])
+    kept = kept.isel(record=order).transpose("record", "sample", "level", ...)
     peak, undecided = kept.peak.values, kept.certified.values == UNDECIDED
     with_limit = peak[..., None]
     exceeding = np.where(np.isinf(limits), np.isinf(with_limit), with_limit > limits)
@@ -215,7 +215,7 @@ def _estimated(
     fractions = clustered_fractions(
         exceeding, weights, np.broadcast_to(undecided[..., None], exceeding.shape)
     )
-    levels = runs.scale.values
+    levels = runs.level.values
     fits, curves = [], []
     for number, limit in enumerate(limits.tolist()):
         fit, curve = fitted(limit, levels, exceeding[..., number], rocking, weights)
@@ -227,7 +227,7 @@ def _estimated(
 def _dataset(
     runs: xr.Dataset, limits: np.ndarray, fractions: Fractions, rocking: np.ndarray, curves: np.ndarray
 ) -> xr.Dataset:
-    over = ("limit", "scale")
+    over = ("limit", "level")
     columns: dict[str, tuple[np.ndarray, str]] = {
         "fraction": (fractions.value, "fraction of the runs that exceed the limit"),
         "fraction_low": (fractions.low, "lower end of the 95 % interval"),
@@ -246,6 +246,6 @@ def _dataset(
     for number, (name, text) in enumerate(zip(("fit", "fit_low", "fit_high"), long_names, strict=True)):
         variables[name] = (over, curves[:, number], {"long_name": text, "units": "1"})
     rocks = {"long_name": "fraction of the runs that rock", "units": "1"}
-    variables["rocking"] = ("scale", rocking.mean(axis=(0, 1)), rocks)
+    variables["rocking"] = ("level", rocking.mean(axis=(0, 1)), rocks)
     limit = {"long_name": "limit of the largest absolute angle in units of theta_cr", "units": "1"}
     return runs.assign(variables).assign_coords(limit=("limit", limits, limit))

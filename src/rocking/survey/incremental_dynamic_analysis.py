@@ -7,14 +7,16 @@ from collections.abc import Iterable
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from rocking.model.block import Block, block_attributes
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import IncrementalDynamicAnalysis
 from rocking.model.record_set import RecordSet, record_set
-from rocking.model.validation import Refusal, WrongType, instance
+from rocking.model.validation import WrongType, instance
 from rocking.survey.ending_measures import ending
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import MotionSpec, is_axis, motion_question
+from rocking.survey.spec import MotionSpec, is_axis, motion_spec
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -88,15 +90,15 @@ def incremental_dynamic_analysis(
     >>> records = rk.synthetic_ground_motions(6, seed=1)
     >>> found = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), np.linspace(0.5, 3, 6))
     >>> found.dataset.peak.dims, found.fractiles().dims
-    (('record', 'scale'), ('fractile', 'scale'))
+    (('record', 'level'), ('fractile', 'level'))
     """
     chosen = record_set(records)
-    asked = block_question(chosen, block, levels, intensity, angle=angle, polarity=polarity, model=model)
+    asked = block_spec(chosen, block, levels, intensity, angle=angle, polarity=polarity, model=model)
     found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
     return IncrementalDynamicAnalysis(of_block(found, asked, chosen, block), block)
 
 
-def block_question(
+def block_spec(
     records: RecordSet,
     block: Block,
     levels: Any,
@@ -120,35 +122,36 @@ def block_question(
         raise WrongType("levels", "be an array of levels, ascending", levels, remedy)
     if one_level and len(levels) == 1:
         levels = levels[0]
-    try:
-        return motion_question(
-            records,
-            {
-                "size": block.radius,
-                "slenderness": block.critical_angle,
-                "restitution": block.restitution,
-                "angle": angle,
-                "polarity": polarity,
-                "scale": levels,
-            },
-            intensity=intensity,
-            inertia_ratio=block.inertia_ratio,
-            model=model,
-            one_run=one_level,
-        )
-    except Refusal as error:
-        raise error.of({"scale": "levels"}) from None
+    return motion_spec(
+        records,
+        {
+            "size": block.radius,
+            "slenderness": block.critical_angle,
+            "restitution": block.restitution,
+            "angle": angle,
+            "polarity": polarity,
+            "level": levels,
+        },
+        intensity=intensity,
+        inertia_ratio=block.inertia_ratio,
+        model=model,
+        one_run=one_level,
+    )
 
 
 def of_block(found: xr.Dataset, asked: MotionSpec, records: RecordSet, block: Block) -> xr.Dataset:
-    """Return a dataset that always has the dimensions `record` and `scale`, with the names of the records and the block."""
+    """Return a dataset that always has the dimensions `record` and `level`, with the names of the records and the block."""
     if "record" not in found.dims:
-        found = found.expand_dims(record=[0.0])
-    if "scale" not in found.dims:
-        level = "scale", [found.attrs["scale"]], asked.coordinate("scale")
-        kept = {name: value for name, value in found.attrs.items() if name != "scale"}
-        found = found.expand_dims(scale=1, axis=-1).assign_coords(scale=level)
+        found = found.expand_dims(record=1)
+    if "level" not in found.dims:
+        level = "level", [found.attrs["level"]], asked.coordinate("level")
+        kept = {name: value for name, value in found.attrs.items() if name != "level"}
+        found = found.expand_dims(level=1, axis=-1).assign_coords(level=level)
         found.attrs = kept
-    metadata = {"long_name": "record"}
-    named = found.assign_coords(name=("record", list(records.names), metadata))
-    return named.assign_attrs(block_attributes(block))
+    return with_names(found, records).assign_attrs(block_attributes(block))
+
+
+def with_names(found: xr.Dataset, records: RecordSet) -> xr.Dataset:
+    """Return a dataset with the numbers of its records as integers, and their names."""
+    number = "record", np.arange(len(records)), {"long_name": "number of the record, from 0"}
+    return found.assign_coords(record=number, name=("record", list(records.names), {"long_name": "record"}))

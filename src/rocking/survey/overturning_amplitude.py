@@ -11,12 +11,13 @@ from attrs import frozen
 
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.survey_results import OverturningCurve
-from rocking.model.validation import WrongType, whole
+from rocking.model.system import System
+from rocking.model.validation import refuse_if, whole
 from rocking.survey.measurement import Measurement
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import sampled
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import HarmonicSpec, coordinate, is_axis, points, question
+from rocking.survey.spec import HarmonicSpec, coordinate, fixed_quantities, harmonic_spec, points
 from rocking.survey.verdict_measures import outcome
 from rocking.theory import heteroclinic_amplitude
 
@@ -33,7 +34,7 @@ SETTLED = 1e-12
 class Scan:
     """Kinds of response over phase and amplitude (the last two dimensions) in each cell of the dimensions `over`."""
 
-    asked: HarmonicSpec
+    spec: HarmonicSpec
     measure: Measurement
     over: tuple[str, ...]
     kinds: xr.DataArray
@@ -82,9 +83,7 @@ def refined(scan: Scan, executor: Executor | None) -> tuple[np.ndarray, np.ndarr
         if wide.size == 0:
             break
         middle = 0.5 * (low[wide] + high[wide])
-        tried = points(
-            {name: v[wide] for name, v in values.items()} | {"amplitude": middle}, scan.asked.fixed
-        )
+        tried = points({name: v[wide] for name, v in values.items()} | {"amplitude": middle}, scan.spec.fixed)
         fell = sampled(tried, scan.measure, executor)["kind"] == kernel.OVERTURNS
         high[wide[fell]], low[wide[~fell]] = middle[fell], middle[~fell]
     lowest, phase = np.full(first.size, np.nan), np.full(first.size, np.nan)
@@ -101,11 +100,12 @@ SCANNED = np.linspace(1.0, 16.0, 301)
 
 
 def overturning_amplitude(
+    system: System,
     *,
+    amplitude: Any = None,
     period: Any = None,
     frequency: Any = None,
-    restitution: Any,
-    amplitude: Any = None,
+    restitution: Any = None,
     critical_angle: Any = None,
     phases: int = 16,
     max_cycles: int = 1_000,
@@ -123,14 +123,13 @@ def overturning_amplitude(
 
     Parameters
     ----------
-    period, frequency : float or array (n,)
-        Forcing period T or forcing frequency Ω (exactly one of them); an array is ascending.
-    restitution : float or array (n,)
-        Coefficient of restitution e in [0, 1]; an array is ascending.
+    system : System
+        Block on a harmonic base without braces, of any amplitude and phase.
     amplitude : array (n,), optional
         Amplitudes A to scan, ascending. Default: 301 values from 1 to 16.
-    critical_angle : float or array (n,), optional
-        Critical angle of the full equation, rad, as in `System`; an array is ascending. Default: None, slender blocks.
+    period, frequency, restitution, critical_angle : array (n,), optional
+        Axes of the result, ascending: forcing period T or forcing frequency Ω, coefficient of restitution e and critical angle of
+        the full equation, rad. Default: those of the system.
     phases : int
         Number of initial phases φ, evenly spaced over [0, π). From rest, the other half of the phases only mirrors the
         motion. Default: 16.
@@ -167,36 +166,37 @@ def overturning_amplitude(
     --------
     >>> import numpy as np
     >>> import rocking as rk
-    >>> found = rk.overturning_amplitude(
-    ...     period=[1.5, 2.0], restitution=0.925, amplitude=np.linspace(1, 4, 31), phases=2
-    ... )
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.overturning_amplitude(system, period=[1.5, 2.0], amplitude=np.linspace(1, 4, 31), phases=2)
     >>> found.dataset.lowest.dims, found.dataset.overturning_share.shape
     (('period',), (2, 31))
     """
     count = whole("phases", phases, 1, MAX_PHASES)
-    amplitude = SCANNED if amplitude is None else amplitude
-    if not is_axis(amplitude):
-        raise WrongType("amplitude", "be an axis of amplitudes to scan, ascending", amplitude)
     measure = outcome(max_cycles, max_period, TITLE)
     turned = np.arange(count) * (np.pi / count)
-    given = {
-        "amplitude": amplitude,
+    fixed = fixed_quantities(system) | {"phase": 0.0}
+    refuse_if(
+        system.braces is not None, "system", "have no braces: between them a block does not overturn", system
+    )
+    axes = {
+        "amplitude": SCANNED if amplitude is None else amplitude,
         "restitution": restitution,
-        "phase": turned if count > 1 else 0.0,
+        "phase": turned if count > 1 else None,
         "frequency": frequency,
         "period": period,
         "critical_angle": critical_angle,
     }
-    asked = question(given, sum(map(is_axis, given.values())), "an overturning amplitude")
-    found = run_survey(asked, measure, store, executor, progress=progress, repair=repair)
+    varied = sum(each is not None for each in axes.values())
+    spec = harmonic_spec(fixed, axes, varied, "an overturning amplitude")
+    found = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
     kinds = found.kind if count > 1 else found.kind.expand_dims(phase=turned)
-    over = [name for name in ("restitution", "critical_angle", "frequency", "period") if name in asked.axes]
+    over = [name for name in ("restitution", "critical_angle", "frequency", "period") if name in spec.axes]
     kinds = kinds.transpose(*over, "phase", "amplitude").load()
-    scan = Scan(asked, measure, tuple(over), kinds)
-    return _summed_up(scan, *refined(scan, executor))
+    scan = Scan(spec, measure, tuple(over), kinds)
+    return OverturningCurve(_summed_up(scan, *refined(scan, executor)), system=system)
 
 
-def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> OverturningCurve:
+def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> xr.Dataset:
     """Return the curve as a dataset."""
     import xarray as xr
 
@@ -260,14 +260,14 @@ def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> Overturning
         for name, (dims, values, long_name, unit, note) in columns.items()
     }
     coordinates = {name: (name, scan.kinds[name].values, coordinate(name)) for name in sizes}
-    return OverturningCurve(xr.Dataset(variables, coordinates, attributes(scan.asked, scan.measure)))
+    return xr.Dataset(variables, coordinates, attributes(scan.spec, scan.measure))
 
 
 def _thresholds(scan: Scan) -> np.ndarray:
     """Return A* of each cell; NaN for the full equation, for which there is no closed form."""
     grids = np.meshgrid(*(scan.kinds[name].values for name in scan.over), indexing="ij")
-    if scan.asked.full:
+    if scan.spec.full:
         return np.full(grids[0].shape if grids else (), np.nan)
-    at: dict[str, Any] = scan.asked.fixed | dict(zip(scan.over, grids, strict=True))
+    at: dict[str, Any] = scan.spec.fixed | dict(zip(scan.over, grids, strict=True))
     period = at["period"] if "period" in at else 2.0 * np.pi / at["frequency"]
     return np.asarray(heteroclinic_amplitude(period, at["restitution"]))

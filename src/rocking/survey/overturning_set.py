@@ -26,7 +26,7 @@ from rocking.survey.spec import MAX_LEVEL, axis
 if TYPE_CHECKING:
     import xarray as xr
 
-LEVELS = (1e-9, MAX_LEVEL)
+RANGE = (1e-9, MAX_LEVEL)
 KEPT = ("outcome", "certified", "impacts_since_rest")
 """Variables over the levels of the grid."""
 COLUMNS = {
@@ -64,7 +64,7 @@ class Work(NamedTuple):
 def overturning_set(
     records: RecordSet | GroundMotion | Iterable[GroundMotion],
     block: Block,
-    scales: Any,
+    levels: Any,
     *,
     intensity: str = "scale",
     angle: float = 0.0,
@@ -76,7 +76,7 @@ def overturning_set(
 
     Overturning is not monotone: a stronger motion can spare a block that a weaker one overturns. "The" overturning acceleration
     does not exist. Every interval of overturning or of standing levels that is wider than the distance of two neighbouring
-    `scales` is found. Narrower ones may be missed, an even number of switches between two levels always.
+    `levels` is found. Narrower ones may be missed, an even number of switches between two levels always.
 
     Parameters
     ----------
@@ -84,10 +84,10 @@ def overturning_set(
         Ground motions.
     block : Block
         Block.
-    scales : array (n,)
+    levels : array (n,)
         Ascending levels of the intensity measure, two at least, in [1e-9, 1e6]: the grid.
     intensity : str
-        Intensity measure of `scales`, as in `rocking_spectrum`. Default: "scale", the factor of the record.
+        Intensity measure of the levels, as in `rocking_spectrum`. Default: "scale", the factor of the record.
     angle : float
         Initial angle Θ in units of θcr. Default: 0, at rest.
     polarity : float
@@ -129,7 +129,7 @@ def overturning_set(
     (2, True)
     """
     chosen, block = record_set(records), instance("block", block, Block)
-    scales = axis("scales", scales, LEVELS)
+    levels = axis("levels", levels, RANGE)
     angle = ANGLE.checked(angle)
     if within("polarity", polarity, -1.0, 1.0) not in (-1.0, 1.0):
         raise Refusal("polarity", "be 1 or -1", polarity)
@@ -142,21 +142,21 @@ def overturning_set(
         for motion, value in zip(chosen, values.tolist(), strict=True)
     ]
     with engine(executor) as (pool, stop):
-        futures = [pool.submit(scan, each, scales, stop) for each in work]
+        futures = [pool.submit(scan, each, levels, stop) for each in work]
         try:
             scans = [future.result() for future in futures]
         finally:
             for future in futures:
                 future.cancel()
     options = {"intensity": intensity, "angle": angle, "polarity": float(polarity), "model": model}
-    return OverturningSet(_dataset(scans, scales, measure, chosen, options), chosen, block)
+    return OverturningSet(_dataset(scans, levels, measure, chosen, options), chosen, block)
 
 
-def scan(work: Work, scales: np.ndarray, stop: np.ndarray) -> Scan:
+def scan(work: Work, levels: np.ndarray, stop: np.ndarray) -> Scan:
     """Follow one record at all levels, and locate its switches; CancelledError if `stop` is set."""
     run = runs_of(work, stop)
-    grid = run(scales)
-    return Scan({name: grid[name] for name in KEPT}, locate_switches(run, scales, grid))
+    grid = run(levels)
+    return Scan({name: grid[name] for name in KEPT}, locate_switches(run, levels, grid))
 
 
 def runs_of(work: Work, stop: np.ndarray) -> Runs:
@@ -181,11 +181,11 @@ def runs_of(work: Work, stop: np.ndarray) -> Runs:
     return run
 
 
-def locate_switches(run: Runs, scales: np.ndarray, grid: Arrays) -> np.ndarray:
+def locate_switches(run: Runs, levels: np.ndarray, grid: Arrays) -> np.ndarray:
     """Locate a switch between any two neighbouring levels with different outcomes, all at the same time, by bisection."""
     fell = grid["outcome"] == OVERTURNED
     places = np.flatnonzero(fell[1:] != fell[:-1])
-    low, high, above = scales[places], scales[places + 1], fell[places + 1]
+    low, high, above = levels[places], levels[places + 1], fell[places + 1]
     mode = np.where(above, grid["impacts_since_rest"][places + 1], grid["impacts_since_rest"][places])
     sure = grid["certified"] == CERTIFIED
     below_sure = np.where(sure[places], low, np.nan)
@@ -211,7 +211,7 @@ def locate_switches(run: Runs, scales: np.ndarray, grid: Arrays) -> np.ndarray:
 
 
 def _dataset(
-    scans: list[Scan], scales: np.ndarray, measure: Intensity, records: RecordSet, options: dict[str, Any]
+    scans: list[Scan], levels: np.ndarray, measure: Intensity, records: RecordSet, options: dict[str, Any]
 ) -> xr.Dataset:
     """Return the dataset of the result."""
     import xarray as xr
@@ -220,14 +220,14 @@ def _dataset(
         each.switches["record"] = number
     switches = np.concatenate([each.switches for each in scans])
     unit = {"units": measure.unit or "1"}
-    bounds = float(scales[0]), float(scales[-1])
+    bounds = float(levels[0]), float(levels[-1])
     intervals = [
         intervals_of(each.grid["outcome"][0] == OVERTURNED, each.switches, *bounds) for each in scans
     ]
     lowest = np.array([each[0, 0] if each.size else np.nan for each in intervals])
     share = np.array([np.diff(each, axis=1).sum() for each in intervals]) / (bounds[1] - bounds[0])
     variables: dict[str, Any] = {
-        each.name: (("record", "scale"), np.stack([one.grid[each.name] for one in scans]), each.attributes)
+        each.name: (("record", "level"), np.stack([one.grid[each.name] for one in scans]), each.attributes)
         for each in VARIABLES
         if each.name in KEPT
     }
@@ -239,7 +239,7 @@ def _dataset(
     pga = np.array([motion.pga for motion in records])
     coordinates = {
         "record": np.arange(len(records)),
-        "scale": ("scale", scales, {"long_name": measure.long_name, "symbol": measure.symbol} | unit),
+        "level": ("level", levels, {"long_name": measure.long_name, "symbol": measure.symbol} | unit),
         "name": ("record", list(records.names), {"long_name": "record"}),
         "pga": ("record", pga, {"long_name": "peak ground acceleration", "units": "m/s²"}),
     }

@@ -4,27 +4,28 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import Executor
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from rocking.model.survey_results import ParametricMap
+from rocking.model.system import State, System
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import question
+from rocking.survey.spec import fixed_quantities, fixed_start, harmonic_spec
 from rocking.survey.verdict_measures import response
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def parametric_map(
+    system: System,
+    start: State | None = None,
     *,
     amplitude: Any = None,
     period: Any = None,
     frequency: Any = None,
     restitution: Any = None,
-    phase: Any = 0.0,
-    angle: Any = 0.0,
-    velocity: Any = 0.0,
+    phase: Any = None,
+    angle: Any = None,
+    velocity: Any = None,
     brace_angle: Any = None,
-    brace_restitution: Any = 1.0,
+    brace_restitution: Any = None,
     critical_angle: Any = None,
     max_cycles: int = 10_000,
     max_period: int = 64,
@@ -32,17 +33,20 @@ def parametric_map(
     executor: Executor | None = None,
     progress: bool = False,
     repair: bool = False,
-) -> xr.Dataset:
+) -> ParametricMap:
     """Classify the response at each point of a grid over any two quantities, with the evidence at each point.
 
     Parameters
     ----------
-    amplitude, period, frequency, restitution, phase, angle, velocity, brace_angle, brace_restitution : float or array (n,)
-        Normalised quantities as in `Harmonic` (either `period` or `frequency`), `System`, `Braces` and `State`. Two of
-        all quantities are ascending arrays, the axes of the map, for example ``np.linspace(0, 16, 60)``. For a block in SI use
-        ``block.amplitude(accelerations)``, ``block.frequency(hertz)`` and ``block.restitution``.
-    critical_angle : float or array (n,), optional
-        Critical angle θcr of the full equation, rad, as in `System`. Default: None, slender blocks.
+    system : System
+        Block on a harmonic base. The map replaces those of its quantities that are axes.
+    start : State, optional
+        Initial state at τ = 0. Default: at rest.
+    amplitude, period, frequency, restitution, phase, angle, velocity : array (n,)
+    brace_angle, brace_restitution, critical_angle : array (n,)
+        Axes of the map: two normalised quantities as in `Harmonic`, `System`, `Braces` and `State`, ascending, for example
+        ``np.linspace(0, 16, 60)``. All others are those of the system and of the initial state. For a block in SI use
+        ``block.amplitude(accelerations)`` and ``block.frequency(hertz)``.
     max_cycles, max_period : int
         As in `classify`. A response is classified as chaotic after 10⁴ cycles at the earliest (with braces 10⁵).
         Default: 10,000 and 64.
@@ -63,16 +67,13 @@ def parametric_map(
 
     Returns
     -------
-    xarray.Dataset
-        Variables over both axes: `kind`, `evidence`, `symmetric` (codes explained by their attributes `flag_values` and
-        `flag_meanings`), `response_period`, `impacts_per_period`, `brace_hits_per_period`, `exponent`,
-        `exponent_error`, `peak`, `transient` and `cycles`, as in `Verdict`. With a store, its finest level, which is
-        read on access.
+    ParametricMap
+        `.dataset` over both axes; `print` shows one line. With a store, its finest level, which is read on access.
 
     Raises
     ------
     TypeError
-        If an argument has the wrong type, or if the number of varying quantities is not two.
+        If an argument has the wrong type, or if the number of axes is not two.
     ValueError
         If an argument lies outside its range, if a map without store exceeds the memory, or if the store holds a
         different survey.
@@ -100,13 +101,13 @@ def parametric_map(
     --------
     >>> import numpy as np
     >>> import rocking as rk
-    >>> found = rk.parametric_map(
-    ...     amplitude=np.linspace(0, 16, 9), period=np.linspace(0.2, 3, 8), restitution=0.925
-    ... )
-    >>> found.kind.dims, found.attrs["restitution"]
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.parametric_map(system, amplitude=np.linspace(0, 16, 9), period=np.linspace(0.2, 3, 8))
+    >>> found.dataset.kind.dims, found.dataset.attrs["restitution"]
     (('amplitude', 'period'), 0.925)
     """
-    asked = question(
+    spec = harmonic_spec(
+        fixed_quantities(system) | fixed_start(start),
         {
             "amplitude": amplitude,
             "period": period,
@@ -123,4 +124,5 @@ def parametric_map(
         "a parametric map",
     )
     measure = response(max_cycles, max_period, "Parametric map of a free-standing block on a shaking base")
-    return run_survey(asked, measure, store, executor, progress=progress, repair=repair)
+    found = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
+    return ParametricMap(found, system=system)

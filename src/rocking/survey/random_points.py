@@ -139,7 +139,7 @@ class UncertainMotionSpec(MotionSpec):
             self.fixed["slenderness"],
         )
         levels = np.array([self.intensities[number] for number in record.tolist()])
-        factor = self.measure.factor(given["scale"], levels, *nominal) * given["polarity"]
+        factor = self.measure.factor(given["level"], levels, *nominal) * given["polarity"]
         return runs._replace(factor=factor / (GRAVITY * own["slenderness"]))
 
     def described(self) -> dict[str, Any]:

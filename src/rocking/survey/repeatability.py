@@ -31,7 +31,7 @@ from rocking.survey.random_points import (
     spread,
 )
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import Points, points_of, question
+from rocking.survey.spec import Points, fixed_quantities, fixed_start, harmonic_spec, points_of
 from rocking.survey.verdict_measures import KIND, response, verdicts
 
 Name = TypeVar("Name", bound=str)
@@ -141,16 +141,18 @@ MAX_AT_A_POINT = 1_000
 
 
 def repeatability_map(
+    system: System,
+    start: State | None = None,
     *,
-    amplitude: Any,
+    amplitude: Any = None,
     period: Any = None,
     frequency: Any = None,
-    restitution: Any,
-    phase: Any = 0.0,
-    angle: Any = 0.0,
-    velocity: Any = 0.0,
+    restitution: Any = None,
+    phase: Any = None,
+    angle: Any = None,
+    velocity: Any = None,
     brace_angle: Any = None,
-    brace_restitution: Any = 1.0,
+    brace_restitution: Any = None,
     critical_angle: Any = None,
     relative: float = 0.01,
     samples: int = 16,
@@ -165,9 +167,13 @@ def repeatability_map(
 
     Parameters
     ----------
-    amplitude, period, frequency, restitution, phase, angle, velocity : float or array (n,)
-    brace_angle, brace_restitution, critical_angle : float or array (n,)
-        As in `parametric_map`. Two of them are arrays, the axes of the map.
+    system : System
+        Nominal system. The map replaces those of its quantities that are axes.
+    start : State, optional
+        Nominal initial state at τ = 0. Default: at rest.
+    amplitude, period, frequency, restitution, phase, angle, velocity : array (n,)
+    brace_angle, brace_restitution, critical_angle : array (n,)
+        Axes of the map, two of them, as in `parametric_map`.
     relative : float
         Largest relative deviation of A, T, e, Θ and Θ', in [0, 0.5], rounded to 10⁻⁶. Default: 0.01.
     samples : int
@@ -203,43 +209,49 @@ def repeatability_map(
     --------
     >>> import numpy as np
     >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     >>> found = rk.repeatability_map(
-    ...     amplitude=np.linspace(1, 13, 4), period=np.linspace(0.5, 2, 4), restitution=0.925, samples=4
+    ...     system, amplitude=np.linspace(1, 13, 4), period=np.linspace(0.5, 2, 4), samples=4
     ... )
     >>> found.uncertain.of, found.dataset.agreeing.dims
     (16, ('amplitude', 'period'))
     """
-    given = {
-        "amplitude": amplitude,
-        "period": period,
-        "frequency": frequency,
-        "restitution": restitution,
-        "phase": phase,
-        "angle": angle,
-        "velocity": velocity,
-        "brace_angle": brace_angle,
-        "brace_restitution": brace_restitution,
-        "critical_angle": critical_angle,
-    }
-    asked = question(given, 2, "a map of repeatability")
+    spec = harmonic_spec(
+        fixed_quantities(system) | fixed_start(start),
+        {
+            "amplitude": amplitude,
+            "period": period,
+            "frequency": frequency,
+            "restitution": restitution,
+            "phase": phase,
+            "angle": angle,
+            "velocity": velocity,
+            "brace_angle": brace_angle,
+            "brace_restitution": brace_restitution,
+            "critical_angle": critical_angle,
+        },
+        2,
+        "a map of repeatability",
+    )
     off = round(within("relative", relative, 0, MAX_RELATIVE) / MILLIONTH)
     options = budget(max_cycles, max_period) | {
         "samples": whole("samples", samples, 2, MAX_AT_A_POINT),
         "relative_millionths": off,
     }
     measure = Measurement(TITLE, judge, VARIABLES, options, batch.METHOD)
-    found = run_survey(asked, measure, store, executor, progress=progress, repair=repair).load()
+    found = run_survey(spec, measure, store, executor, progress=progress, repair=repair).load()
     found.attrs["relative"] = off * MILLIONTH
     runs = {
         name: np.rint(found[name].values * options["samples"]).astype(int)
         for name in ("agreeing", "overturned", "undetermined")
     }
-    braced = "brace_angle" in asked.axes or "brace_angle" in asked.fixed
+    braced = "brace_angle" in spec.axes or "brace_angle" in spec.fixed
     may_fall = 0 * runs["undetermined"] if braced else runs["undetermined"]
     return RepeatabilityMap(
         found,
         _divided(runs["agreeing"], runs["undetermined"], options["samples"]),
         _divided(runs["overturned"], may_fall, options["samples"]),
+        system=system,
     )
 
 

@@ -16,7 +16,7 @@ from rocking.model.record_set import RecordSet, record_set
 from rocking.model.validation import Refusal, instance, refuse_if, whole
 from rocking.survey.ending_measures import OVERTURNED, UNDECIDED, ending
 from rocking.survey.fragility_curve import clustered_fractions, two_level_weights
-from rocking.survey.incremental_dynamic_analysis import block_question, of_block
+from rocking.survey.incremental_dynamic_analysis import block_spec, of_block
 from rocking.survey.random_points import MAX_SEED, fingerprints
 from rocking.survey.run_survey import run_survey
 
@@ -105,11 +105,11 @@ def sensitivity(
         f"have a restitution in [{RESTITUTION}, {1.0 - RESTITUTION}]",
         block.restitution,
     )
-    asked = block_question(chosen, block, levels, intensity, model=model)
+    asked = block_spec(chosen, block, levels, intensity, model=model)
     runs: dict[str, xr.Dataset] = {}
     for name, changed in _changes(asked, chosen):
         found = run_survey(changed, ending(TITLE, with_peak=False), None, executor)
-        runs[name] = of_block(found, changed, chosen, block).transpose("record", "scale")
+        runs[name] = of_block(found, changed, chosen, block).transpose("record", "level")
     return _summed_up(runs, order, random, block)
 
 
@@ -117,8 +117,8 @@ def _changes(asked: MotionSpec, records: RecordSet) -> Iterator[tuple[str, Motio
     """Yield the survey itself and each change of it, by name."""
     yield NONE, asked
     for sign, factor in (("+", 1.0 + AMPLITUDE), ("−", 1.0 - AMPLITUDE)):
-        levels = asked.axes["scale"] * factor**asked.measure.power
-        yield f"amplitude {sign} 1 %", evolve(asked, axes=asked.axes | {"scale": levels})
+        levels = asked.axes["level"] * factor**asked.measure.power
+        yield f"amplitude {sign} 1 %", evolve(asked, axes=asked.axes | {"level": levels})
     yield "start + ½ step", evolve(asked, motions=dict(enumerate(map(_between, records))))
     for sign, change in (("+", RESTITUTION), ("−", -RESTITUTION)):
         fixed = asked.fixed | {"restitution": asked.fixed["restitution"] + change}
@@ -162,9 +162,9 @@ def _summed_up(
         name: ("change", values, {"long_name": text, "units": "1"})
         for name, (values, text) in columns.items()
     }
-    over = ("record", "scale")
+    over = ("record", "level")
     variables["overturned"] = (over, fell[NONE], {"long_name": "whether the unchanged block overturns"})
     variables["differs"] = ((*over, "change"), differs, {"long_name": "whether the verdict differs"})
-    coordinates = {"change": names} | {name: unchanged[name] for name in ("record", "scale", "name")}
+    coordinates = {"change": names} | {name: unchanged[name] for name in ("record", "level", "name")}
     kept = {name: value for name, value in unchanged.attrs.items() if name != "with_peak"}
     return Sensitivity(xr.Dataset(variables, coordinates, kept), block)

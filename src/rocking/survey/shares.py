@@ -11,17 +11,16 @@ import numpy as np
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.forcing import Harmonic
 from rocking.model.proof import ProvedShare
-from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.share import Share
-from rocking.model.survey_results import ChaosShare
-from rocking.model.system import NO_BRACES, Braces, State, System, check_below_flat
-from rocking.model.validation import Refusal, WrongType, real, whole
+from rocking.model.survey_results import ChaosShare, ParametricMap
+from rocking.model.system import NO_BRACES, Braces, State, System
+from rocking.model.validation import Refusal, WrongType, whole
 from rocking.model.verdict import Kind
 from rocking.proof.prove import check_provable
 from rocking.response.classify import KINDS, classify
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.spec import HarmonicSpec, check_quantity, coordinate, points
+from rocking.survey.spec import HarmonicSpec, coordinate, fixed_quantities, points, quantity_axis
 from rocking.survey.verdict_measures import interval_variables, outcome
 
 if TYPE_CHECKING:
@@ -32,13 +31,11 @@ TITLE = "Share of chaotic responses of a free-standing block on a shaking base"
 
 
 def chaos_share(
+    system: System,
     *,
-    restitution: Any,
+    restitution: Any = None,
     period: Any = (0.2, 3.0),
     amplitude: Any = (0.0, 16.0),
-    brace_angle: float | None = None,
-    brace_restitution: float = 1.0,
-    critical_angle: float | None = None,
     samples: int = 3_000,
     seed: int = 0,
     max_cycles: int = 20_000,
@@ -49,15 +46,13 @@ def chaos_share(
 
     Parameters
     ----------
-    restitution : float or array (n,)
-        Coefficient of restitution e in [0, 1]; an array is ascending.
+    system : System
+        Block on a harmonic base, of any amplitude and period.
+    restitution : array (n,), optional
+        Coefficients of restitution e in [0, 1], ascending. Default: that of the system.
     period, amplitude : pair
         Ranges (low, high) of the forcing period T and the amplitude A, which are uniformly distributed.
         Default: (0.2, 3) and (0, 16).
-    brace_angle, brace_restitution : float
-        As in `Braces`. Default: no braces.
-    critical_angle : float, optional
-        As in `System`. Default: None, slender blocks.
     samples : int
         Number of responses at each restitution, in [1, 10⁷], with independent samples. Default: 3,000.
     seed : int
@@ -94,23 +89,21 @@ def chaos_share(
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.chaos_share(restitution=[0.5, 0.9], samples=20)
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.9)
+    >>> found = rk.chaos_share(system, restitution=[0.5, 0.9], samples=20)
     >>> found.dataset.share.dims
     ('restitution', 'response')
     """
     measure = outcome(max_cycles, max_period, TITLE)
-    values = np.atleast_1d(check_quantity("restitution", restitution))
+    quantities = fixed_quantities(system)
     spans = {"period": span("period", period), "amplitude": span("amplitude", amplitude)}
-    fixed = {}
-    if brace_angle is not None:
-        given = {"brace_angle": brace_angle, "brace_restitution": brace_restitution}
-        fixed = {name: SYSTEM_QUANTITIES[name].checked(value) for name, value in given.items()}
-    elif real("brace_restitution", brace_restitution) != 1.0:
-        raise WrongType("brace_restitution", "be used with {brace_angle}", brace_restitution)
-    if critical_angle is not None:
-        fixed["critical_angle"] = float(check_quantity("critical_angle", critical_angle))
-        if brace_angle is not None:
-            check_below_flat(fixed["brace_angle"], fixed["critical_angle"])
+    fixed = {
+        name: value for name, value in quantities.items() if name not in (*spans, "frequency", "restitution")
+    }
+    if restitution is None:
+        values = np.array([system.restitution])
+    else:
+        values = quantity_axis("restitution", restitution)
     count = whole("samples", samples, 1, MAX_SAMPLES)
     random = generator(seed)
     counts = []
@@ -118,7 +111,7 @@ def chaos_share(
         drawn = {name: random.uniform(*ends, count) for name, ends in spans.items()}
         kinds = sampled(points(drawn, {"restitution": each, **fixed}), measure, executor)["kind"]
         counts.append(np.bincount(kinds, minlength=len(KINDS)))
-    return _summed_up(values, spans, fixed, measure, np.array(counts), seed)
+    return ChaosShare(*_summed_up(values, spans, fixed, measure, np.array(counts), seed), system=system)
 
 
 def _summed_up(
@@ -128,7 +121,7 @@ def _summed_up(
     measure: Any,
     counts: np.ndarray,
     seed: int,
-) -> ChaosShare:
+) -> tuple[Dataset, tuple[Share, ...]]:
     import xarray as xr
 
     of = int(counts[0].sum())
@@ -150,7 +143,7 @@ def _summed_up(
         "seed": seed,
         **{f"{name}_range": list(ends) for name, ends in spans.items()},
     }
-    return ChaosShare(xr.Dataset(variables, coordinates, metadata), shares)
+    return xr.Dataset(variables, coordinates, metadata), shares
 
 
 MAX_POINTS = 100_000
@@ -169,15 +162,15 @@ QUANTITIES = (
 """Quantities of a map, as attributes or as coordinates."""
 
 
-def proved_share(found: Dataset, points: int = 300, seed: int = 0) -> ProvedShare:
+def proved_share(result: ParametricMap | Dataset, points: int = 300, seed: int = 0) -> ProvedShare:
     """Prove a random sample of the periodic responses of a map in ball arithmetic.
 
     Each response of the sample is classified again, with the proof of its orbit and of its initial state (`classify`).
 
     Parameters
     ----------
-    found : xarray.Dataset
-        Map of slender blocks, from `parametric_map`.
+    result : ParametricMap or xarray.Dataset
+        Map of slender blocks, or its dataset.
     points : int
         Number of periodic responses of the sample, in [1, 100,000]; all of them if there are fewer. A proof takes some
         milliseconds to seconds. Default: 300.
@@ -206,7 +199,8 @@ def proved_share(found: Dataset, points: int = 300, seed: int = 0) -> ProvedShar
     --------
     >>> import numpy as np
     >>> import rocking as rk
-    >>> found = rk.parametric_map(amplitude=np.linspace(2, 6, 5), period=[0.5, 1.0], restitution=0.925)
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.parametric_map(system, amplitude=np.linspace(2, 6, 5), period=[0.5, 1.0])
     >>> shares = rk.proved_share(found)
     >>> shares.orbits.count == shares.orbits.of
     True
@@ -215,12 +209,13 @@ def proved_share(found: Dataset, points: int = 300, seed: int = 0) -> ProvedShar
 
     points = whole("points", points, 1, MAX_POINTS)
     random = generator(seed)
+    found = result.dataset if isinstance(result, ParametricMap) else result
     if not isinstance(found, Dataset) or "kind" not in found:
-        raise WrongType("found", "be a map of responses", found)
+        raise WrongType("result", "be a map of responses", result)
     periodic = found["kind"] == Kind.PERIODIC.code
     places = np.argwhere(periodic.values)
     if not len(places):
-        raise Refusal("found", "have periodic responses; the map has none")
+        raise Refusal("result", "have periodic responses; the map has none")
     chosen = places[np.sort(random.choice(len(places), min(points, len(places)), replace=False))]
     orbits, starts, reasons = 0, 0, Counter[str]()
     for place in chosen:

@@ -15,13 +15,14 @@ from attrs import evolve, field, frozen
 from rocking.kernels.forcing import parameters as numbers
 from rocking.model.block import INERTIA_RATIOS, RECTANGLE
 from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
-from rocking.model.forcing import KINDS, SINES
+from rocking.model.forcing import SINES, Pulse
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.quantity import CRITICAL_ANGLE, RUN_QUANTITIES, SYSTEM_QUANTITIES
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
 from rocking.model.system import (
     MODELS,
     NO_BRACES,
+    State,
     System,
     check_below_flat,
     check_between,
@@ -30,7 +31,18 @@ from rocking.model.system import (
     quantities,
 )
 from rocking.model.text import shown
-from rocking.model.validation import Incomplete, Refusal, Text, WrongType, exactly_one, one_of, reals, within
+from rocking.model.validation import (
+    Incomplete,
+    Refusal,
+    Text,
+    WrongType,
+    exactly_one,
+    instance,
+    one_of,
+    reals,
+    refuse_if,
+    within,
+)
 
 Values = Mapping[str, np.ndarray]
 Spec = TypeVar("Spec", bound="SurveySpec")
@@ -84,7 +96,7 @@ def axis(name: str, values: Any, span: tuple[float, float]) -> np.ndarray:
         raise WrongType(name, allowed, values) from None
     if array.ndim != 1 or array.size < 2:
         got = "an empty array" if array.size == 0 else f"an array of shape {array.shape}"
-        remedy = "give a number for a quantity that does not vary" if array.size == 1 else ""
+        remedy = "a quantity that does not vary is no axis" if array.size == 1 else ""
         raise Refusal(name, allowed, Text(got), remedy)
     inside = (array >= low) & (array <= high)
     if not inside.all():
@@ -176,42 +188,67 @@ def coordinate(name: str) -> dict[str, str]:
     return SYSTEM_QUANTITIES[name].attributes
 
 
-def question(asked: Mapping[str, Any], count: int, what: str) -> HarmonicSpec:
-    """Check the quantities of a survey: `count` of them are arrays, the axes, and the others are numbers or None.
+FORCING_TIMES = {"period", "frequency"}
+
+
+def harmonic_spec(fixed: Mapping[str, float], axes: Mapping[str, Any], count: int, what: str) -> HarmonicSpec:
+    """Return the survey over `count` axes; the other ones of `axes` are None, and their values are the `fixed` ones.
 
     `what` names the survey in messages.
 
     Raises
     ------
     TypeError
-        If a quantity is missing or has the wrong type, or if the number of axes is not `count`.
+        If an axis has the wrong type, or if the number of axes is not `count`.
     ValueError
         If a value lies outside its range.
     """
-    exactly_one(period=asked.get("period"), frequency=asked.get("frequency"))
-    given = {name: asked[name] for name in SYSTEM_QUANTITIES if asked.get(name) is not None}
-    missing = [name for name in ("amplitude", "restitution") if name not in given]
-    if missing:
-        raise Incomplete(what, " and ".join(f"{{{name}}}" for name in missing), Text("none"))
-    rebound = 1.0 if "brace_angle" in given else given.pop("brace_restitution", 1.0)
-    if is_axis(rebound) or rebound != 1.0:
-        raise WrongType("brace_restitution", "be used with {brace_angle}", rebound)
-    checked = {name: check_quantity(name, value) for name, value in given.items()}
-    axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
-    fixed = {name: value for name, value in checked.items() if not isinstance(value, np.ndarray)}
-    if len(axes) != count:
-        names, more = [f"{{{name}}}" for name in axes or given], len(axes) - count
-        got = " and ".join(names) if axes else f"none of {', '.join(names)}"
-        remedy = f"give {'one' if more == 1 else more} of them as a number" if more > 0 else ""
+    checked = {
+        name: quantity_axis(name, axes[name]) for name in SYSTEM_QUANTITIES if axes.get(name) is not None
+    }
+    if len(checked) != count:
+        remedy = "the others are those of the system" if len(checked) > count else ""
+        got = " and ".join(f"{{{name}}}" for name in checked) or "none"
         raise Incomplete(what, _counted(count), Text(got), remedy)
-    asked_for = HarmonicSpec(axes, fixed)
-    _check_braces(asked_for)
-    return asked_for
+    if checked.keys() >= FORCING_TIMES:
+        exactly_one(period=axes["period"], frequency=axes["frequency"])
+    replaced = checked.keys() | (FORCING_TIMES if FORCING_TIMES & checked.keys() else set())
+    kept = {name: value for name, value in fixed.items() if name not in replaced}
+    if "brace_angle" in checked and "brace_restitution" not in checked:
+        kept.setdefault("brace_restitution", 1.0)
+    elif "brace_restitution" in checked and "brace_angle" not in checked | kept:
+        raise WrongType(
+            "brace_restitution", "be used with {brace_angle} or a braced system", axes["brace_restitution"]
+        )
+    spec = HarmonicSpec(checked, kept)
+    _check_braces(spec)
+    return spec
 
 
-def check_quantity(name: str, value: Any) -> float | np.ndarray:
-    """Check a number or an axis of one quantity."""
-    return number_or_axis(name, value, SYSTEM_QUANTITIES[name].range)
+def fixed_quantities(system: System) -> dict[str, float]:
+    """Return the quantities of a system on a harmonic base; of period and frequency, the one that its forcing was made from."""
+    time, value = instance("system", system, System).periodic.given
+    return {time: value} | {name: each for name, each in by_period(system).items() if name != "period"}
+
+
+def fixed_start(start: State | None) -> dict[str, float]:
+    """Return angle and velocity of an initial state, by default at rest."""
+    start = State() if start is None else instance("start", start, State)
+    return {name: SYSTEM_QUANTITIES[name].checked(getattr(start, name)) for name in START}
+
+
+def quantity_axis(name: str, values: Any) -> np.ndarray:
+    """Check an axis of one quantity."""
+    low, high = SYSTEM_QUANTITIES[name].range
+    if not is_axis(values):
+        rule = f"be an axis, an ascending array in [{low:.6g}, {high:.6g}]"
+        remedy = (
+            "such as np.linspace(start, stop, count)"
+            if isinstance(values, str)
+            else "a number is that of the system"
+        )
+        raise WrongType(name, rule, values, remedy)
+    return axis(name, values, (low, high))
 
 
 def _counted(count: int) -> str:
@@ -280,7 +317,7 @@ class Runs(NamedTuple):
 class MotionSpec(SurveySpec):
     """Survey of blocks under ground motions.
 
-    The axis `record` holds the numbers of the records. Without `restitution`, it is Housner's. `scale` is a level of the
+    The axis `record` holds the numbers of the records. Without `restitution`, it is Housner's. `level` is a level of the
     intensity measure.
     """
 
@@ -319,7 +356,7 @@ class MotionSpec(SurveySpec):
         if restitution is None:
             restitution = _each(housner_restitution, slenderness, ratio)
         own = np.array([self.intensities[number] for number in record.tolist()])
-        factor = self.measure.factor(given["scale"], own, alpha, slenderness)
+        factor = self.measure.factor(given["level"], own, alpha, slenderness)
         return Runs(
             self.motions,
             record,
@@ -340,7 +377,7 @@ class MotionSpec(SurveySpec):
         """Return the attributes of a coordinate."""
         if name == "record":
             return {"long_name": "number of the record, from 0"}
-        if name == "scale":
+        if name == "level":
             return {
                 "long_name": self.measure.long_name,
                 "symbol": self.measure.symbol,
@@ -349,7 +386,7 @@ class MotionSpec(SurveySpec):
         return RUN_QUANTITIES[name].attributes
 
 
-def motion_question(
+def motion_spec(
     records: RecordSet,
     given: Mapping[str, Any],
     *,
@@ -373,7 +410,7 @@ def motion_question(
     if model == "full":
         spans["slenderness"] = CRITICAL_ANGLE.range
     checked: dict[str, Any] = {
-        name: number_or_axis(name, given.get(name), span)
+        name: number_or_axis("levels" if name == "level" else name, given.get(name), span)
         for name, span in spans.items()
         if given.get(name) is not None or name != "restitution"
     }
@@ -467,42 +504,34 @@ class PulseSpec(SurveySpec):
         return SYSTEM_QUANTITIES[name].attributes
 
 
-def pulse_question(
-    kind: str, amplitude: Any, frequency: Any, restitution: Any, critical_angle: Any = None
-) -> PulseSpec:
-    """Check the quantities of a survey of pulses: arrays are axes. Restitution and critical angle may be numbers.
+def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:
+    """Return the survey of a block under one pulse over `axes`, of which restitution and critical angle may be None.
 
     Raises
     ------
     TypeError, ValueError
-        If a quantity is of the wrong type or outside its range, or if amplitude or frequency is a number.
+        If the base motion is no pulse, if there are braces, or if an axis is of the wrong type or outside its range.
     """
-    kind = one_of("kind", kind, KINDS)
-    axes: dict[str, np.ndarray] = {}
-    fixed: dict[str, float] = {}
-    given = {"amplitude": amplitude, "frequency": frequency, "restitution": restitution}
-    if critical_angle is not None:
-        given["critical_angle"] = critical_angle
-    for name, value in given.items():
-        if name in ("amplitude", "frequency") and not is_axis(value):
-            allowed = "be an ascending array, an axis of the spectrum"
-            raise WrongType(name, allowed, value, "such as np.linspace(start, stop, count)")
-        checked = number_or_axis(name, value, SYSTEM_QUANTITIES[name].range)
-        if isinstance(checked, np.ndarray):
-            axes[name] = checked
-        else:
-            fixed[name] = checked
-    return PulseSpec(axes, fixed, kind=kind)
+    forcing = instance("system", system, System).forcing
+    if not isinstance(forcing, Pulse):
+        raise WrongType("system", "have a pulse as base motion, rk.Pulse", Text(type(forcing).__name__))
+    refuse_if(system.braces is not None, "system", "have no braces for this survey", system)
+    check_constant_restitution(system)
+    own = {"restitution": system.restitution}
+    if system.critical_angle is not None:
+        own["critical_angle"] = system.critical_angle
+    named = [name for name in axes if axes[name] is not None or name in ("amplitude", "frequency")]
+    checked = {name: quantity_axis(name, axes[name]) for name in named}
+    return PulseSpec(checked, {name: own[name] for name in own if name not in checked}, kind=forcing.kind)
 
 
-def asked_of(system: System) -> dict[str, float]:
-    """Return the quantities of a system as a survey takes them: the period but not the frequency."""
+def by_period(system: System) -> dict[str, float]:
+    """Return the quantities of a system on a harmonic base: its period but not its frequency."""
     check_periodic(system, None)
     check_constant_restitution(system)
-    found = quantities(system)
-    return {name: found[name] for name in found if name != "frequency"}
+    return {name: value for name, value in quantities(system).items() if name != "frequency"}
 
 
 def points_of(system: System, starts: np.ndarray) -> Points:
     """Return the points of one system with initial states (n, 2)."""
-    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked_of(system))
+    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, by_period(system))

@@ -9,13 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model.block import RECTANGLE
+from rocking.model.block import RECTANGLE, Block
 from rocking.model.block_formulas import frequency_parameter
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import RecordSet, record_set
+from rocking.model.survey_results import OverturningSpectrum, RockingSpectrum
+from rocking.model.system import System
+from rocking.model.validation import Incomplete, Text, instance
 from rocking.survey.ending_measures import ending, pulse_ending
+from rocking.survey.incremental_dynamic_analysis import with_names
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import MotionSpec, motion_question, pulse_question
+from rocking.survey.spec import MotionSpec, motion_spec, pulse_spec
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,12 +30,13 @@ ROCKING_SPECTRUM = "Rocking spectrum of free-standing blocks under ground motion
 
 def rocking_spectrum(
     records: RecordSet | GroundMotion | Iterable[GroundMotion],
+    block: Block | None = None,
+    levels: Any = 1.0,
     *,
-    size: Any,
-    slenderness: Any,
+    size: Any = None,
+    slenderness: Any = None,
     restitution: Any = None,
-    inertia_ratio: float = RECTANGLE,
-    scale: Any = 1.0,
+    inertia_ratio: float | None = None,
     intensity: str = "scale",
     angle: Any = 0.0,
     polarity: Any = 1.0,
@@ -40,7 +45,7 @@ def rocking_spectrum(
     executor: Executor | None = None,
     progress: bool = False,
     repair: bool = False,
-) -> xr.Dataset:
+) -> RockingSpectrum:
     """Follow blocks of many sizes under ground motions to their ends: rocking spectra.
 
     Each quantity is a number or an ascending array. The arrays, and the records if there are several, are the dimensions of the
@@ -50,18 +55,20 @@ def rocking_spectrum(
     ----------
     records : RecordSet, GroundMotion or iterable of GroundMotion
         Ground motions.
-    size : float or array (n,)
-        Distance R from a corner to the centre of mass, in metres, in [0.001, 1000]: ``block.radius``.
-    slenderness : float or array (n,)
-        Critical angle θcr in rad: ``block.critical_angle``.
-    restitution : float or array (n,), optional
-        Coefficient of restitution e in [0, 1]. Default: Housner's value for each slenderness.
-    inertia_ratio : float
-        Io/(MR²), as for `Block`. Default: 4/3, a uniform rectangle.
-    scale : float or array (n,)
+    block : Block, optional
+        Block of which some quantities vary. Default: none; then give its size and its slenderness.
+    levels : float or array (n,)
         Levels of the intensity measure to which each record is scaled. Default: 1, with the measure "scale" the record as it is.
+    size : float or array (n,), optional
+        Distance R from a corner to the centre of mass, in metres, in [0.001, 1000]. Default: that of the block.
+    slenderness : float or array (n,), optional
+        Critical angle θcr in rad. Default: that of the block.
+    restitution : float or array (n,), optional
+        Coefficient of restitution e in [0, 1]. Default: that of the block, or Housner's value for each slenderness.
+    inertia_ratio : float, optional
+        Io/(MR²), as for `Block`. Default: that of the block, or 4/3, a uniform rectangle.
     intensity : str
-        Intensity measure of `scale`: "scale" (a factor), "pga" (m/s²), "pga-g", "pgv" (m/s), "pgd" (m) or "arias" (m/s).
+        Intensity measure of the levels: "scale" (a factor), "pga" (m/s²), "pga-g", "pgv" (m/s), "pgd" (m) or "arias" (m/s).
         Measures that depend on the block are "pga-ratio", PGA/(g tan θcr), and "pgv-ratio", α PGV/(g tan θcr). A column of the
         records is a measure, too. Default: "scale".
     angle : float or array (n,)
@@ -76,10 +83,8 @@ def rocking_spectrum(
 
     Returns
     -------
-    xarray.Dataset
-        `outcome` and `certified` (codes explained by their attributes), `peak` (largest |Θ|, infinite if the block
-        overturns), `margin`, `impacts` and `impacts_since_rest`. Impacts of chattering sequences are cut short.
-        Coordinates `name` and `pga` describe the records, `frequency_parameter` the sizes.
+    RockingSpectrum
+        `.dataset` with `outcome`, `certified`, `peak`, `margin`, `impacts` and `impacts_since_rest`; `print` shows one line.
 
     Raises
     ------
@@ -89,7 +94,7 @@ def rocking_spectrum(
     See Also
     --------
     simulate : One motion, with its events.
-    overturning_set : All scales that overturn a block.
+    overturning_set : All levels that overturn a block.
     fragility : Probability of overturning.
 
     References
@@ -100,27 +105,36 @@ def rocking_spectrum(
     --------
     >>> import numpy as np
     >>> import rocking as rk
-    >>> found = rk.rocking_spectrum(rk.example_ground_motion(), size=np.linspace(0.5, 3, 6), slenderness=0.2)
-    >>> found.peak.dims, found.attrs["slenderness"]
-    (('size',), 0.2)
+    >>> block = rk.Block(height=2.0, width=0.5)
+    >>> found = rk.rocking_spectrum(rk.example_ground_motion(), block, size=np.linspace(0.5, 3, 6))
+    >>> found.dataset.peak.dims, found.dataset.attrs["slenderness"] == block.critical_angle
+    (('size',), True)
     """
     chosen = record_set(records)
-    asked = motion_question(
+    sizes = {"size": size, "slenderness": slenderness, "restitution": restitution}
+    if block is not None:
+        sizes = quantities_of_block(block) | {
+            name: value for name, value in sizes.items() if value is not None
+        }
+        inertia_ratio = block.inertia_ratio if inertia_ratio is None else inertia_ratio
+    missing = [f"{{{name}}}" for name in ("size", "slenderness") if sizes.get(name) is None]
+    if missing:
+        raise Incomplete("a rocking spectrum", f"{' and '.join(missing)}, or a {{block}}", Text("none"))
+    asked = motion_spec(
         chosen,
-        {
-            "size": size,
-            "slenderness": slenderness,
-            "restitution": restitution,
-            "angle": angle,
-            "polarity": polarity,
-            "scale": scale,
-        },
+        sizes | {"angle": angle, "polarity": polarity, "level": levels},
         intensity=intensity,
-        inertia_ratio=inertia_ratio,
+        inertia_ratio=RECTANGLE if inertia_ratio is None else inertia_ratio,
         model=model,
     )
     found = run_survey(asked, ending(ROCKING_SPECTRUM), store, executor, progress=progress, repair=repair)
-    return described(found, asked, chosen)
+    return RockingSpectrum(described(found, asked, chosen))
+
+
+def quantities_of_block(block: Block) -> dict[str, Any]:
+    """Return size, slenderness and restitution of a block; the latter is None if Housner's value applies."""
+    restitution = None if instance("block", block, Block).has_housner_restitution else block.restitution
+    return {"size": block.radius, "slenderness": block.critical_angle, "restitution": restitution}
 
 
 def described(found: xr.Dataset, asked: MotionSpec, records: RecordSet) -> xr.Dataset:
@@ -128,9 +142,7 @@ def described(found: xr.Dataset, asked: MotionSpec, records: RecordSet) -> xr.Da
     if "record" in found.dims:
         pga = np.array([motion.pga for motion in records])
         metadata = {"long_name": "peak ground acceleration", "units": "m/s²"}
-        found = found.assign_coords(
-            name=("record", list(records.names), {"long_name": "record"}), pga=("record", pga, metadata)
-        )
+        found = with_names(found, records).assign_coords(pga=("record", pga, metadata))
     else:
         found.attrs["record"] = records.names[0]
     if "size" in found.dims:
@@ -145,41 +157,39 @@ OVERTURNING_SPECTRUM = "Overturning spectrum of a block under one pulse"
 
 
 def overturning_spectrum(
-    kind: str,
+    system: System,
     *,
     amplitude: Any,
     frequency: Any,
-    restitution: Any,
+    restitution: Any = None,
     critical_angle: Any = None,
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
     repair: bool = False,
-) -> xr.Dataset:
+) -> OverturningSpectrum:
     """Follow blocks at rest under one pulse, over its amplitude and frequency: overturning spectrum.
 
     Parameters
     ----------
-    kind : str
-        Form of the pulse, as for `Pulse`.
+    system : System
+        Block under one pulse, of any amplitude and duration, without braces.
     amplitude : array (n,)
         Ascending amplitudes A = a/(g θcr), in [0, 1000].
     frequency : array (m,)
         Ascending normalised frequencies Ω = ω/α, in [0.001, 1000]. The pulse lasts one period 2π/Ω, a half-sine half
         of it. For a Ricker pulse the period is Tp.
-    restitution : float or array (k,)
-        Coefficient of restitution e in [0, 1].
-    critical_angle : float or array (l,), optional
-        Critical angle θcr in rad of the full equation of motion, in [0.001, 1.2]. Default: the slender block.
+    restitution, critical_angle : array (k,), optional
+        Further axes: coefficient of restitution e, and critical angle θcr in rad of the full equation of motion. Default: those of
+        the system.
     store, executor, progress, repair
         As in `parametric_map`.
 
     Returns
     -------
-    xarray.Dataset
-        Variables over `amplitude`, `frequency` and, if they vary, `restitution` and `critical_angle`. `outcome` and `certified` are codes
-        that their attributes explain. `peak` is the largest |Θ|, infinite if the block overturns. `margin` and `impacts` are as
-        in `rocking_spectrum`. `impacts_since_rest` of a block that overturns is the mode of overturning.
+    OverturningSpectrum
+        `.dataset` over the axes with `outcome`, `certified`, `peak`, `margin`, `impacts` and `impacts_since_rest`; `print` shows one
+        line.
 
     Raises
     ------
@@ -199,13 +209,19 @@ def overturning_spectrum(
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.overturning_spectrum("one-sine", amplitude=[3.0, 4.0, 7.0, 8.0], frequency=[4, 5], restitution=0.9)
+    >>> system = rk.System(rk.Pulse("one-sine", amplitude=5.0, duration=1.0), restitution=0.9)
+    >>> found = rk.overturning_spectrum(system, amplitude=[3.0, 4.0, 7.0, 8.0], frequency=[4, 5]).dataset
     >>> (found.outcome.sel(frequency=5) == 2).values.tolist()
     [False, True, False, True]
     >>> found.impacts_since_rest.sel(frequency=5).values[[1, 3]].tolist()
     [1, 0]
     """
-    asked = pulse_question(kind, amplitude, frequency, restitution, critical_angle)
-    return run_survey(
-        asked, pulse_ending(OVERTURNING_SPECTRUM), store, executor, progress=progress, repair=repair
-    )
+    axes = {
+        "amplitude": amplitude,
+        "frequency": frequency,
+        "restitution": restitution,
+        "critical_angle": critical_angle,
+    }
+    spec, measure = pulse_spec(system, axes), pulse_ending(OVERTURNING_SPECTRUM)
+    found = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
+    return OverturningSpectrum(found, system=system)

@@ -46,7 +46,7 @@ def netcdf(plane: SizePlane, picture: SizePicture, name: str, shown: GroundView)
             "title": "Ends of free-standing blocks under a base motion",
             "source": f"rocking {VERSION}",
             "base_motion": name,
-            "scale": shown.scale,
+            "level": shown.scale,
             "model": shown.model,
             "view": address(shown),
         },

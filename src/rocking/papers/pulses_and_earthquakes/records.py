@@ -48,7 +48,7 @@ def scales() -> xr.Dataset:
     """Return the ends of the block under the recorded motion at all scales."""
     record = rk.example_ground_motion()
     factor = RATIOS * (GRAVITY * SLENDERNESS / record.pga)
-    return rk.rocking_spectrum(record, size=SIZE, slenderness=SLENDERNESS, scale=factor)
+    return rk.rocking_spectrum(record, size=SIZE, slenderness=SLENDERNESS, levels=factor).dataset
 
 
 @shared
@@ -56,7 +56,7 @@ def synthetic_scales() -> xr.Dataset:
     """Return the ends of the block under the synthetic motions at every fifth scale."""
     motions = synthetic()
     factor = RATIOS[::5] * (GRAVITY * SLENDERNESS / motions[0].pga)
-    return rk.rocking_spectrum(motions, size=SIZE, slenderness=SLENDERNESS, scale=factor)
+    return rk.rocking_spectrum(motions, size=SIZE, slenderness=SLENDERNESS, levels=factor).dataset
 
 
 @shared
@@ -67,9 +67,9 @@ def spectrum() -> xr.Dataset:
         rk.example_ground_motion(),
         size=3 * GRAVITY / (4 * alpha**2),
         slenderness=SLENDERNESSES,
-        scale=SPECTRUM_PGA,
+        levels=SPECTRUM_PGA,
         intensity="pga-g",
-    )
+    ).dataset
 
 
 @frozen
@@ -86,8 +86,8 @@ def wrong_verdicts() -> Wrong:
     motions = synthetic()
     factor = COARSE_RATIOS * (GRAVITY * COARSE_SLENDERNESS / motions[0].pga)
     exact = rk.rocking_spectrum(
-        motions, size=COARSE_SIZE, slenderness=COARSE_SLENDERNESS, scale=factor
-    ).transpose("record", "scale")
+        motions, size=COARSE_SIZE, slenderness=COARSE_SLENDERNESS, levels=factor
+    ).dataset.transpose("record", "level")
     sure = exact.certified.values.astype(bool).ravel()
     alpha = float(np.sqrt(3 * GRAVITY / (4 * COARSE_SIZE)))
     samples = np.concatenate(

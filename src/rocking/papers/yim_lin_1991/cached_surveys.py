@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from attrs import evolve
 
 import rocking as rk
 from rocking.model.survey_results import ChaosShare, RepeatabilityMap
@@ -24,6 +25,11 @@ REPEATED = 32
 BRACED_RESTITUTIONS, BRACED_SAMPLES = (0.2, 0.4, 0.6, 0.8, 0.925), 250
 SYSTEMS = 900
 
+SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+"""Block of the damped maps; amplitude and period vary."""
+BRACED = evolve(SYSTEM, braces=rk.Braces(angle=1.0, restitution=1.0))
+"""The block between perfectly elastic braces at the critical angle."""
+
 
 def axes(count: int) -> dict[str, Any]:
     """Return evenly spaced axes of a map."""
@@ -33,13 +39,13 @@ def axes(count: int) -> dict[str, Any]:
 @shared
 def undamped() -> xr.Dataset:
     """Compute the map of figure 10, e = 1."""
-    return rk.parametric_map(**axes(160), restitution=1.0)
+    return rk.parametric_map(evolve(SYSTEM, restitution=1.0), **axes(160)).dataset
 
 
 @shared
 def damped() -> xr.Dataset:
     """Compute the map of figure 11, e = 0.925."""
-    return rk.parametric_map(**axes(400), restitution=0.925)
+    return rk.parametric_map(SYSTEM, **axes(400)).dataset
 
 
 @shared
@@ -49,20 +55,20 @@ def braced() -> xr.Dataset:
     Motions between braces count as chaotic only after 10⁵ cycles. Most motions that appear chaotic for a thousand
     cycles become periodic later.
     """
-    return rk.parametric_map(**axes(50), restitution=0.925, brace_angle=1.0, max_cycles=100_000)
+    return rk.parametric_map(BRACED, **axes(50), max_cycles=100_000).dataset
 
 
 @shared
 def chaos() -> ChaosShare:
     """Estimate the fraction of chaotic responses at random periods and amplitudes, over e."""
-    return rk.chaos_share(restitution=np.array(RESTITUTIONS), samples=SAMPLES)
+    return rk.chaos_share(SYSTEM, restitution=np.array(RESTITUTIONS), samples=SAMPLES)
 
 
 @shared
 def braced_chaos() -> ChaosShare:
     """Estimate the fraction of chaotic responses between perfectly elastic braces at the critical angle, over e."""
     return rk.chaos_share(
-        restitution=np.array(BRACED_RESTITUTIONS), samples=BRACED_SAMPLES, brace_angle=1.0, max_cycles=100_000
+        BRACED, restitution=np.array(BRACED_RESTITUTIONS), samples=BRACED_SAMPLES, max_cycles=100_000
     )
 
 
@@ -70,15 +76,16 @@ def braced_chaos() -> ChaosShare:
 def starts(amplitude: float, period: float, restitution: float) -> xr.Dataset:
     """Compute a map over initial states with |Θ| ≤ 1 and |Θ'| ≤ 1."""
     axis = np.linspace(-1.0, 1.0, 30)
-    return rk.parametric_map(
-        angle=axis, velocity=axis, amplitude=amplitude, period=period, restitution=restitution
-    )
+    system = rk.System(rk.Harmonic(amplitude, period=period), restitution)
+    return rk.parametric_map(system, angle=axis, velocity=axis).dataset
 
 
 @shared
 def repeatable(restitution: float) -> RepeatabilityMap:
     """Compute a map of repeatability for inputs that vary by 1 %."""
-    return rk.repeatability_map(**axes(REPEATED), restitution=restitution, samples=8, max_cycles=10_000)
+    return rk.repeatability_map(
+        evolve(SYSTEM, restitution=restitution), **axes(REPEATED), samples=8, max_cycles=10_000
+    )
 
 
 @shared

@@ -26,7 +26,7 @@ def draw() -> Figure:
     figure, axes = rk.plot.panels(rows=3, height=2.6)
     for ax, (low, high, sweep, name) in zip(axes, RANGES, strict=True):
         found = rk.orbit_diagram(
-            SYSTEM, "amplitude", np.linspace(low, high, 500), sweep=sweep, transient=600, cycles=120
+            SYSTEM, amplitude=np.linspace(low, high, 500), sweep=sweep, transient=600, cycles=120
         )
         rk.plot.orbit_diagram(found, ax)
         rk.plot.title(ax, name)

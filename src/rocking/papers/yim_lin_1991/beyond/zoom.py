@@ -15,6 +15,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter
 
 import rocking as rk
 from rocking.papers.report.claim import small
+from rocking.papers.yim_lin_1991 import cached_surveys
 
 CENTRE = (1.0914985576, 5.3120190162)
 WIDTHS = ((0.8, 4.0), (8e-4, 4e-3))
@@ -30,10 +31,10 @@ def draw() -> Figure:
     for ax, (width, height) in zip(axes, WIDTHS, strict=True):
         (period, amplitude) = CENTRE
         found = rk.parametric_map(
+            cached_surveys.SYSTEM,
             period=period + width * np.linspace(-0.5, 0.5, COUNT),
             amplitude=amplitude + height * np.linspace(-0.5, 0.5, COUNT),
-            restitution=0.925,
-        )
+        ).dataset
         rk.plot.parametric_map(found, ax)
         rk.plot.title(ax, f"{100 * divided(found):.1f} % of neighbouring points differ")
     left, right = axes

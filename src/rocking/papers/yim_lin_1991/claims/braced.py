@@ -20,11 +20,11 @@ SHIFT = 1e-13
 def unfelt() -> Finding:
     """The braces do not affect responses below the brace angle."""
     axes = cached_surveys.axes(30)
-    free = rk.parametric_map(**axes, restitution=0.925)
+    free = rk.parametric_map(cached_surveys.SYSTEM, **axes).dataset
     shifted = rk.parametric_map(
-        amplitude=axes["amplitude"] * (1.0 + SHIFT), period=axes["period"], restitution=0.925
-    )
-    braced = rk.parametric_map(**axes, restitution=0.925, brace_angle=1.0, max_cycles=1_000)
+        cached_surveys.SYSTEM, amplitude=axes["amplitude"] * (1.0 + SHIFT), period=axes["period"]
+    ).dataset
+    braced = rk.parametric_map(cached_surveys.BRACED, **axes, max_cycles=1_000).dataset
     below = (free.peak.values < 1.0) & (free.kind.values != rk.Kind.OVERTURNED.code)
     # after a long chaotic transient rounding selects the attractor, and the two maps locate events in different ways
     compared, same = below & _alike(free, shifted), _alike(free, braced)
