@@ -294,3 +294,15 @@ def test_bar_says_the_number_of_points_and_ends_with_the_outcomes(terminal):
     assert "overturned" in last
     rk.rocking_spectrum(RECORDS, **ASKED)
     assert terminal() == [""]
+
+
+def test_store_of_version_0_1_is_refused_in_a_sentence(tmp_path):
+    """The dimension of the levels was named `scale`."""
+    arguments = {"size": [1.0, 2.0], "slenderness": 0.2, "levels": [1.0, 2.0], "store": tmp_path / "a.zarr"}
+    rk.rocking_spectrum(RECORDS[0], **arguments)
+    root = tmp_path / "a.zarr" / "zarr.json"
+    root.write_text(root.read_text(encoding="utf-8").replace('"level"', '"scale"'), encoding="utf-8")
+    message = "holds a different survey: the axes are size and scale there and size and level here "
+    with pytest.raises(ValueError, match=f"^store '.*a.zarr' {message}") as refused:
+        rk.rocking_spectrum(RECORDS[0], **arguments)
+    assert "\n" not in str(refused.value)

@@ -5,6 +5,7 @@ import threading
 from concurrent.futures import Future
 
 import numpy as np
+import pytest
 
 import rocking as rk
 from rocking.model.progress import Bar
@@ -80,3 +81,31 @@ def test_bifurcation_set_shows_its_curves(terminal):
 def test_thread_of_a_bar_ends_with_the_work(terminal):
     rk.parametric_map(**ASKED, progress=True)
     assert "progress" not in {thread.name for thread in threading.enumerate()}
+
+
+RECORDS = rk.synthetic_ground_motions(3, seed=1, duration=5.0)
+SYSTEM = system_with(amplitude=0.5, restitution=0.9)
+
+
+@pytest.mark.parametrize(
+    "what, survey",
+    [
+        ("responses", lambda shown: rk.chaos_share(SYSTEM, samples=5, progress=shown)),
+        ("runs", lambda shown: rk.repeatability(SYSTEM, samples=5, progress=shown)),
+        (
+            "records",
+            lambda shown: rk.overturning_set(RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown),
+        ),
+        ("changes", lambda shown: rk.sensitivity(RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown)),
+        ("response diagram", lambda shown: rk.response_diagram(SYSTEM, amplitude=[0.4, 0.5], progress=shown)),
+        ("orbit diagram", lambda shown: rk.orbit_diagram(SYSTEM, amplitude=[0.4, 0.5], progress=shown)),
+    ],
+)
+def test_every_survey_shows_its_progress_if_requested(terminal, what, survey):
+    survey(False)
+    assert terminal() == [""]
+    survey(True)
+    (last,) = terminal()
+    assert f"{what} 100 %" in last
+    with pytest.raises(TypeError, match="^progress must be a bool; got 1"):
+        survey(1)

@@ -9,7 +9,7 @@ import rocking as rk
 from rocking.survey import attractors, ending_measures, measurement, verdict_measures
 from rocking.survey.attractors import classify_with_anchor
 from rocking.survey.measurement import Batch, batches, compute
-from rocking.survey.repeatability import judge as judge_repeatedly
+from rocking.survey.repeatability import agreement
 from rocking.survey.spec import HarmonicSpec, motion_spec, pulse_spec
 from rocking.survey.tiling import levels
 from rocking.survey.verdict_measures import classify_points, response
@@ -20,7 +20,7 @@ NO_STOP = np.zeros(1, np.int64)
 
 
 def answered(wanted, fixed):
-    batch = Batch(HarmonicSpec(AXES, fixed), np.asarray(wanted, np.int32), MEASURE.judge, MEASURE.options)
+    batch = Batch(HarmonicSpec(AXES, fixed), np.asarray(wanted, np.int32), MEASURE.function, MEASURE.options)
     return compute(batch, NO_STOP)
 
 
@@ -87,13 +87,13 @@ EMPTY = {
 @pytest.mark.parametrize("name", EMPTY)
 def test_batch_without_points_has_empty_results(name):
     measure, inputs = EMPTY[name]
-    found = measure.judge(inputs, measure.options, NO_STOP)
+    found = measure.function(inputs, measure.options, NO_STOP)
     assert set(found) == {each.name for each in measure.variables}
     assert {values.shape for values in found.values()} == {(0,)}
 
 
 def test_repeatability_of_no_points_is_empty():
-    found = judge_repeatedly(HARMONIC, BUDGET | {"samples": 2, "relative_millionths": 1}, NO_STOP)
+    found = agreement(HARMONIC, BUDGET | {"samples": 2, "relative_millionths": 1}, NO_STOP)
     assert {values.shape for values in found.values()} == {(0,)}
 
 

@@ -68,7 +68,7 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
         by_name["transient"],
         by_name["cycles"],
     )
-    return Measurement(title, judge, variables, budget(max_cycles, max_period), batch.METHOD)
+    return Measurement(title, attractor_of_each, variables, budget(max_cycles, max_period), batch.METHOD)
 
 
 def classify_with_anchor(
@@ -82,15 +82,15 @@ def classify_with_anchor(
 
     The state is in `orbit_angle` and `orbit_velocity`. Returns None if another thread sets `stop`.
     """
-    asked = points(values, fixed)
-    arrays = verdicts(asked, {"max_cycles": max_cycles, "max_period": max_period}, stop)
+    spec = points(values, fixed)
+    arrays = verdicts(spec, {"max_cycles": max_cycles, "max_period": max_period}, stop)
     if arrays is None:
         return None
-    angles, velocities = anchors(asked, arrays).T
+    angles, velocities = anchors(spec, arrays).T
     return variables_of(arrays) | {"orbit_angle": angles, "orbit_velocity": velocities}
 
 
-def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+def attractor_of_each(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Return the classification with the representative state and the chaotic mean of each attractor."""
     arrays = verdicts(points, options, stop)
     if arrays is None:

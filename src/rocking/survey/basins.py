@@ -244,10 +244,8 @@ def safe_basin(
         Random seed in [0, 2³² − 1]. Default: 0.
     max_cycles, max_period : int
         As in `classify`. Default: 10,000 and 64.
-    executor : concurrent.futures.Executor, optional
-        Executor that runs the computation. Default: threads on all cores.
-    progress : bool
-        Whether to show the progress on stderr. Default: False.
+    executor, progress
+        As in `parametric_map`.
 
     Returns
     -------

@@ -91,18 +91,18 @@ def ending(title: str, *, with_peak: bool = True) -> Measurement:
 def endings_of_runs(runs: Runs, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Follow runs to their ends; None if another thread sets `stop`. Neighbours with the same record and α share tables."""
     with_peak = bool(options["with_peak"])
-    rows, asked = np.empty(runs.record.size, ends.ENDING_ROW), np.empty(runs.record.size, kernel.RUN_ROW)
-    asked["restitution"], asked["angle"] = runs.restitution, runs.angle
-    asked["critical_angle"] = runs.slenderness
+    rows, inputs = np.empty(runs.record.size, ends.ENDING_ROW), np.empty(runs.record.size, kernel.RUN_ROW)
+    inputs["restitution"], inputs["angle"] = runs.restitution, runs.angle
+    inputs["critical_angle"] = runs.slenderness
     for part in alike(runs):
         motion, alpha = (
             runs.motions[int(runs.record[part.start])],
             float(runs.frequency_parameter[part.start]),
         )
         base = motion.normalised(1.0, alpha)
-        asked["scale"][part] = base.scale * runs.factor[part]
+        inputs["scale"][part] = base.scale * runs.factor[part]
         p = sampled(base, full=runs.full)
-        if not kernel.run_batch(p, asked[part], with_peak, rows[part], stop):
+        if not kernel.run_batch(p, inputs[part], with_peak, rows[part], stop):
             return None
     return answers(rows, with_peak=with_peak, assessed=not runs.full)
 
@@ -176,16 +176,16 @@ def a_pulse(*, full: bool) -> numbers.AnyPulseParameters:
 
 def _sampled(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
     """Follow pulses of straight lines and Ricker pulses; pulses of one duration share tables."""
-    asked = np.empty(rows.size, kernel.RUN_ROW)
-    asked["scale"], asked["restitution"], asked["angle"] = runs.amplitude, runs.restitution, 0.0
-    asked["critical_angle"] = runs.critical_angle
+    inputs = np.empty(rows.size, kernel.RUN_ROW)
+    inputs["scale"], inputs["restitution"], inputs["angle"] = runs.amplitude, runs.restitution, 0.0
+    inputs["critical_angle"] = runs.critical_angle
     durations, places = np.unique(runs.duration, return_inverse=True)
     for number, duration in enumerate(durations.tolist()):
         own = np.flatnonzero(places == number)
         base = Pulse(runs.kind, amplitude=1.0, duration=duration).samples
         p = sampled(base, full=runs.full)
         part = np.empty(own.size, ends.ENDING_ROW)
-        if not kernel.run_batch(p, asked[own], True, part, stop):
+        if not kernel.run_batch(p, inputs[own], True, part, stop):
             return False
         rows[own] = part
     return True
@@ -214,29 +214,29 @@ class BlockEndings:
         self.pulse = base if isinstance(base, Pulse) and base.cosine is not None else None
         motion = base if isinstance(base, GroundMotion) else _samples(base)
         given = {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "level": scale}
-        self.asked = motion_spec(RecordSet(motion), given, intensity="scale", model=model)
+        self.spec = motion_spec(RecordSet(motion), given, intensity="scale", model=model)
 
     def at(self, size: np.ndarray, slenderness: np.ndarray, stop: np.ndarray) -> Arrays | None:
         """Return outcome, certified, peak, margin and impacts at n points; None if another thread sets `stop` (1,).
 
         Neighbouring points of equal size share the tables of the base motion.
         """
-        runs = self.asked.inputs({"size": size, "slenderness": slenderness})
+        runs = self.spec.inputs({"size": size, "slenderness": slenderness})
         if self.pulse is None:
             return endings_of_runs(runs, WITH_PEAK, stop)
         assert self.pulse.cosine is not None
         turns, phase = self.pulse.cosine
-        asked, rows = (
+        inputs, rows = (
             np.empty(size.size, finite_runs.PULSE_ROW),
             np.empty(size.size, ends.ENDING_ROW),
         )
-        asked["amplitude"] = runs.factor * abs(self.pulse.amplitude)
-        asked["duration"] = runs.frequency_parameter * self.pulse.duration
-        asked["frequency"] = 2 * math.pi * turns / asked["duration"]
-        asked["phase"] = phase if self.pulse.amplitude >= 0 else phase + math.pi
-        asked["restitution"], asked["critical_angle"] = runs.restitution, runs.slenderness
+        inputs["amplitude"] = runs.factor * abs(self.pulse.amplitude)
+        inputs["duration"] = runs.frequency_parameter * self.pulse.duration
+        inputs["frequency"] = 2 * math.pi * turns / inputs["duration"]
+        inputs["phase"] = phase if self.pulse.amplitude >= 0 else phase + math.pi
+        inputs["restitution"], inputs["critical_angle"] = runs.restitution, runs.slenderness
         kind = a_pulse(full=runs.full)
-        done = finite_runs.run_pulses(kind, asked, True, rows, stop)
+        done = finite_runs.run_pulses(kind, inputs, True, rows, stop)
         return answers(rows, with_peak=True, assessed=not runs.full) if done else None
 
 

@@ -163,11 +163,11 @@ def fragility(
         count,
         "give {height_spread}, {width_spread} or {restitution_spread}",
     )
-    asked = block_spec(chosen, block, levels, intensity, model=model, one_level=True)
+    spec = block_spec(chosen, block, levels, intensity, model=model, one_level=True)
     if any(spreads.values()):
-        asked = _uncertain(asked, chosen, block, count, spreads, seed)
-    found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
-    runs = of_block(found, asked, chosen, block).assign_attrs(replicates=replicates, seed=seed)
+        spec = _uncertain(spec, chosen, block, count, spreads, seed)
+    found = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
+    runs = of_block(found, spec, chosen, block).assign_attrs(replicates=replicates, seed=seed)
     weights = two_level_weights(len(chosen), count, replicates, np.random.default_rng(seed))
     return _estimated(runs.load(), thresholds, weights, np.argsort(marks), block)
 
@@ -185,18 +185,18 @@ def _limits(values: Any) -> np.ndarray:
 
 
 def _uncertain(
-    asked: MotionSpec, records: RecordSet, block: Block, count: int, spreads: dict[str, float], seed: int
+    spec: MotionSpec, records: RecordSet, block: Block, count: int, spreads: dict[str, float], seed: int
 ) -> UncertainMotionSpec:
-    axes = dict(asked.axes)
+    axes = dict(spec.axes)
     levels = {"level": axes.pop("level")} if "level" in axes else {}
     return UncertainMotionSpec(
         axes | {"sample": np.arange(float(count))} | levels,
-        asked.fixed,
-        asked.motions,
-        asked.intensities,
-        measure=asked.measure,
-        digest=asked.digest,
-        model=asked.model,
+        spec.fixed,
+        spec.motions,
+        spec.intensities,
+        measure=spec.measure,
+        digest=spec.digest,
+        model=spec.model,
         drawn=block_samples(records, block, count, tuple(spreads.values()), seed),  # type: ignore[arg-type]
         stated={**spreads, "seed": seed},
     )

@@ -93,9 +93,9 @@ def incremental_dynamic_analysis(
     (('record', 'level'), ('fractile', 'level'))
     """
     chosen = record_set(records)
-    asked = block_spec(chosen, block, levels, intensity, angle=angle, polarity=polarity, model=model)
-    found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
-    return IncrementalDynamicAnalysis(of_block(found, asked, chosen, block), block)
+    spec = block_spec(chosen, block, levels, intensity, angle=angle, polarity=polarity, model=model)
+    found = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
+    return IncrementalDynamicAnalysis(of_block(found, spec, chosen, block), block)
 
 
 def block_spec(
@@ -139,12 +139,12 @@ def block_spec(
     )
 
 
-def of_block(found: xr.Dataset, asked: MotionSpec, records: RecordSet, block: Block) -> xr.Dataset:
+def of_block(found: xr.Dataset, spec: MotionSpec, records: RecordSet, block: Block) -> xr.Dataset:
     """Return a dataset that always has the dimensions `record` and `level`, with the names of the records and the block."""
     if "record" not in found.dims:
         found = found.expand_dims(record=1)
     if "level" not in found.dims:
-        level = "level", [found.attrs["level"]], asked.coordinate("level")
+        level = "level", [found.attrs["level"]], spec.coordinate("level")
         kept = {name: value for name, value in found.attrs.items() if name != "level"}
         found = found.expand_dims(level=1, axis=-1).assign_coords(level=level)
         found.attrs = kept

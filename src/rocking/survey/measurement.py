@@ -48,13 +48,13 @@ class Measurement:
     ----------
     title : str
         Title of the dataset.
-    judge : callable
+    function : callable
         (inputs, options, stop) → one array (n,) per variable, by name. A pure function of the inputs of the points,
         defined in a module so that other processes can import it. Returns None if another thread sets `stop[0]`.
     variables : tuple of Variable
         Variables; the last one is written last and so marks a point as complete.
     options : dict
-        Integer options of `judge` by name. They are attributes of the dataset, and a store accepts no others.
+        Integer options of `function` by name. They are attributes of the dataset, and a store accepts no others.
     method : int
         Version of the method.
     shares : str
@@ -62,7 +62,7 @@ class Measurement:
     """
 
     title: str
-    judge: Callable[[Any, Mapping[str, int], np.ndarray], Arrays | None]
+    function: Callable[[Any, Mapping[str, int], np.ndarray], Arrays | None]
     variables: tuple[Variable, ...]
     options: dict[str, int]
     method: int
@@ -82,29 +82,29 @@ class Measurement:
 class Batch:
     """Batch of points of a tile, computed in any process."""
 
-    asked: SurveySpec
+    spec: SurveySpec
     wanted: np.ndarray = field(repr=False)  # indices in the tile, in C order
-    judge: Callable[[Any, Mapping[str, int], np.ndarray], Arrays | None]
+    function: Callable[[Any, Mapping[str, int], np.ndarray], Arrays | None]
     options: dict[str, int]
 
 
-def batches(tile: Tile, asked: SurveySpec, wanted: np.ndarray, measure: Measurement) -> Iterator[Batch]:
+def batches(tile: Tile, spec: SurveySpec, wanted: np.ndarray, measure: Measurement) -> Iterator[Batch]:
     """Split a tile into batches: strided, for load balance, or of neighbours, where these share some of the work."""
     parts = -(-wanted.size // BATCH)
     split = [wanted[part::parts] for part in range(parts)]
-    if asked.contiguous:
+    if spec.contiguous:
         split = np.array_split(wanted, parts)
-    inside = asked.with_axes(tile.axes())
+    inside = spec.with_axes(tile.axes())
     for part in split:
-        yield Batch(inside, part, measure.judge, measure.options)
+        yield Batch(inside, part, measure.function, measure.options)
 
 
 def compute(batch: Batch, stop: np.ndarray) -> Arrays:
     """Return the results at the points of a batch, in their order; CancelledError if `stop` is set."""
-    asked = batch.asked
-    places = np.unravel_index(batch.wanted, asked.shape)
-    values = {name: axis[at] for (name, axis), at in zip(asked.axes.items(), places, strict=True)}
-    answers = batch.judge(asked.inputs(values), batch.options, stop)
+    spec = batch.spec
+    places = np.unravel_index(batch.wanted, spec.shape)
+    values = {name: axis[at] for (name, axis), at in zip(spec.axes.items(), places, strict=True)}
+    answers = batch.function(spec.inputs(values), batch.options, stop)
     if answers is None:
         raise CancelledError("the survey was stopped")
     return answers

@@ -19,25 +19,25 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def dataset(asked: SurveySpec, measure: Measurement, arrays: Arrays) -> xr.Dataset:
+def dataset(spec: SurveySpec, measure: Measurement, arrays: Arrays) -> xr.Dataset:
     """Return the dataset of arrays over all axes, with coordinates and attributes."""
     import xarray as xr
 
-    names = tuple(asked.axes)
+    names = tuple(spec.axes)
     variables = {each.name: (names, arrays[each.name], each.attributes) for each in measure.variables}
-    coordinates = {name: (name, values, asked.coordinate(name)) for name, values in asked.axes.items()}
-    return xr.Dataset(variables, coordinates, attributes(asked, measure))
+    coordinates = {name: (name, values, spec.coordinate(name)) for name, values in spec.axes.items()}
+    return xr.Dataset(variables, coordinates, attributes(spec, measure))
 
 
-def attributes(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
+def attributes(spec: SurveySpec, measure: Measurement) -> dict[str, Any]:
     """Return the attributes of a survey: the quantities that do not vary, the options and the package version."""
     return {
         "Conventions": "CF-1.11",
         "title": measure.title,
         "source": f"rocking {VERSION}",
         "method": measure.method,
-        "comment": asked.comment,
-        **asked.described(),
+        "comment": spec.comment,
+        **spec.described(),
         **measure.options,
     }
 
@@ -51,11 +51,11 @@ LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_by
 class Memory:
     """Arrays of the complete survey; a single level, because partial results are not accessible."""
 
-    def __init__(self, asked: SurveySpec, measure: Measurement) -> None:
-        self.asked, self.measure = asked, measure
-        self.levels: list[Level] = finest(asked)
+    def __init__(self, spec: SurveySpec, measure: Measurement) -> None:
+        self.spec, self.measure = spec, measure
+        self.levels: list[Level] = finest(spec)
         self.done = 0
-        self.arrays = measure.blank(asked.shape)
+        self.arrays = measure.blank(spec.shape)
 
     def known(self, tile: Tile) -> np.ndarray:
         """Return the mask of the computed points of a tile."""
@@ -76,15 +76,15 @@ class Memory:
 
     def dataset(self) -> xr.Dataset:
         """Return the dataset of the survey."""
-        return dataset(self.asked, self.measure, self.arrays)
+        return dataset(self.spec, self.measure, self.arrays)
 
 
-def check_fits(asked: SurveySpec, measure: Measurement) -> None:
+def check_fits(spec: SurveySpec, measure: Measurement) -> None:
     """Raise ValueError for a survey that exceeds the memory."""
-    needed = asked.points * sum(np.dtype(each.dtype).itemsize for each in measure.variables)
+    needed = spec.points * sum(np.dtype(each.dtype).itemsize for each in measure.variables)
     if needed > SHARE * memory_size():
         raise ValueError(
-            f"{asked.points:,} points take {needed / 1e9:.3g} GB, too much for the memory that this process may use, "
+            f"{spec.points:,} points take {needed / 1e9:.3g} GB, too much for the memory that this process may use, "
             f"{memory_size() / 1e9:.3g} GB (give store, a folder for the results)"
         )
 

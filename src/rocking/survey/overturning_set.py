@@ -13,6 +13,7 @@ from rocking.kernels.march import finite_runs as kernel
 from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.package import VERSION
+from rocking.model.progress import Bar
 from rocking.model.quantity import ANGLE
 from rocking.model.record_results import SWITCH_ROW, OverturningSet, intervals_of
 from rocking.model.record_set import Intensity, RecordSet, intensity_of, record_set
@@ -20,7 +21,7 @@ from rocking.model.system import MODELS
 from rocking.model.validation import Refusal, instance, one_of, within
 from rocking.survey.ending_measures import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled
 from rocking.survey.measurement import Arrays
-from rocking.survey.run_survey import engine
+from rocking.survey.run_survey import count_when_done, engine
 from rocking.survey.spec import MAX_LEVEL, axis
 
 if TYPE_CHECKING:
@@ -71,6 +72,7 @@ def overturning_set(
     polarity: float = 1.0,
     model: str = "slender",
     executor: Executor | None = None,
+    progress: bool = False,
 ) -> OverturningSet:
     """Find the levels at which ground motions overturn a block, not only the lowest.
 
@@ -95,8 +97,8 @@ def overturning_set(
     model : {"slender", "full"}
         Equation of motion, as for `Block.system`. With "full", rounding errors are not assessed, so that no switch is
         certified. Default: "slender".
-    executor : concurrent.futures.Executor, optional
-        Executor that follows the records in parallel. Default: one thread per core.
+    executor, progress
+        As in `parametric_map`.
 
     Returns
     -------
@@ -141,8 +143,11 @@ def overturning_set(
         Work(motion, measure, value, block, angle, float(polarity), full)
         for motion, value in zip(chosen, values.tolist(), strict=True)
     ]
-    with engine(executor) as (pool, stop):
+    shown = instance("progress", progress, bool)
+    with engine(executor) as (pool, stop), Bar(len(work), "records", shown=shown) as bar:
         futures = [pool.submit(scan, each, levels, stop) for each in work]
+        for future in futures:
+            count_when_done(bar, future, 1)
         try:
             scans = [future.result() for future in futures]
         finally:
@@ -168,13 +173,13 @@ def runs_of(work: Work, stop: np.ndarray) -> Runs:
     lift_off = block.acceleration(1.0)
 
     def run(levels: np.ndarray) -> Arrays:
-        rows, asked = np.empty(levels.size, ends.ENDING_ROW), np.empty(levels.size, kernel.RUN_ROW)
+        rows, inputs = np.empty(levels.size, ends.ENDING_ROW), np.empty(levels.size, kernel.RUN_ROW)
         factors = work.measure.factor(levels, work.value, alpha, slenderness)
         # with the rounding of `GroundMotion.scaled` and `Block.system`, because a switch is located to the last digit
-        asked["scale"] = work.polarity * (motion.factor * factors) / lift_off
-        asked["restitution"], asked["angle"] = block.restitution, work.angle
-        asked["critical_angle"] = slenderness
-        if not kernel.run_batch(p, asked, False, rows, stop):
+        inputs["scale"] = work.polarity * (motion.factor * factors) / lift_off
+        inputs["restitution"], inputs["angle"] = block.restitution, work.angle
+        inputs["critical_angle"] = slenderness
+        if not kernel.run_batch(p, inputs, False, rows, stop):
             raise CancelledError("the survey was stopped")
         return answers(rows, with_peak=False, assessed=not work.full)
 

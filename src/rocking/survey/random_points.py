@@ -38,7 +38,7 @@ def sampled(
         try:
             for first in range(0, total, AT_ONCE):
                 part = Points(*(array[first : first + AT_ONCE] for array in points))
-                futures.append(pool.submit(measure.judge, part, measure.options, stop))
+                futures.append(pool.submit(measure.function, part, measure.options, stop))
                 count_when_done(bar, futures[-1], len(part.systems))
             answers = [result for future in futures if (result := future.result()) is not None]
         finally:

@@ -16,7 +16,7 @@ from rocking.model.share import Share
 from rocking.model.survey_results import Repeatability, RepeatabilityMap
 from rocking.model.system import State, System, check_periodic
 from rocking.model.text import counted
-from rocking.model.validation import whole, within
+from rocking.model.validation import instance, whole, within
 from rocking.model.verdict import Kind
 from rocking.response.classify import KINDS, budget
 from rocking.survey.measurement import Arrays, Measurement, Variable
@@ -47,6 +47,7 @@ def repeatability(
     max_cycles: int = 10_000,
     max_period: int = 64,
     executor: Executor | None = None,
+    progress: bool = False,
 ) -> Repeatability:
     """Estimate the fraction of each outcome of an experiment whose inputs vary slightly.
 
@@ -68,8 +69,8 @@ def repeatability(
         Random seed in [0, 2³² − 1]. Default: 0.
     max_cycles, max_period : int
         As in `classify`. Default: 10,000 and 64.
-    executor : concurrent.futures.Executor, optional
-        Executor that runs the computation. Default: threads on all cores.
+    executor, progress
+        As in `parametric_map`.
 
     Returns
     -------
@@ -106,7 +107,9 @@ def repeatability(
     measure = response(max_cycles, max_period, TITLE)
     random = generator(seed)
     meant = points_of(system, np.tile([start.angle, start.velocity], (count, 1)))
-    answers = sampled(perturbed(meant, random.uniform(-1.0, 1.0, (count, INPUTS)), off), measure, executor)
+    shown_as = "runs" if instance("progress", progress, bool) else ""
+    tried = perturbed(meant, random.uniform(-1.0, 1.0, (count, INPUTS)), off)
+    answers = sampled(tried, measure, executor, shown_as)
     kinds = Counter(KINDS[k] for k in answers["kind"].tolist())
     unknown = kinds[Kind.UNDETERMINED]
     columns = (
@@ -238,7 +241,7 @@ def repeatability_map(
         "samples": whole("samples", samples, 2, MAX_AT_A_POINT),
         "relative_millionths": off,
     }
-    measure = Measurement(TITLE, judge, VARIABLES, options, batch.METHOD)
+    measure = Measurement(TITLE, agreement, VARIABLES, options, batch.METHOD)
     found = run_survey(spec, measure, store, executor, progress=progress, repair=repair).load()
     found.attrs["relative"] = off * MILLIONTH
     runs = {
@@ -283,7 +286,7 @@ VARIABLES = (
 )
 
 
-def judge(at: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+def agreement(at: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Return the most frequent kind of response and the fractions of the runs at each point."""
     counts = np.zeros((len(at.systems), len(KINDS)), np.int64)
     for units in spread(options["samples"]):

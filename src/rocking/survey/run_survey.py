@@ -73,24 +73,24 @@ class Cost:
         return f"{what}, {about} {duration(self.seconds / (workers or 1))} on {on}"
 
 
-def cost(asked: SurveySpec, measure: Measurement, levels: list[Level], there: int) -> Cost:
+def cost(spec: SurveySpec, measure: Measurement, levels: list[Level], there: int) -> Cost:
     """Estimate the cost of a survey, of which `there` points exist, from a sample of its points."""
     tiles = sum(math.prod(level.tile_counts) for level in levels)
-    if there == asked.points:
-        return Cost(asked.points, tiles, there, 0.0)
+    if there == spec.points:
+        return Cost(spec.points, tiles, there, 0.0)
     # multiples of the golden section, rounded to integers, spread the sample evenly over the points
-    stride = round(GOLDEN * asked.points)
-    places = (np.arange(min(PILOTS, asked.points), dtype=object) * stride % asked.points).astype(np.int64)
+    stride = round(GOLDEN * spec.points)
+    places = (np.arange(min(PILOTS, spec.points), dtype=object) * stride % spec.points).astype(np.int64)
     stop = np.zeros(1, np.int64)
-    compute(Batch(asked, places[:1], measure.judge, measure.options), stop)  # opens the compiled kernels
+    compute(Batch(spec, places[:1], measure.function, measure.options), stop)  # opens the compiled kernels
     limit = Timer(MAX_SECONDS, stop.fill, (1,))
     limit.start()
     begun = time.perf_counter()
     with suppress(CancelledError):
-        compute(Batch(asked, places, measure.judge, measure.options), stop)
+        compute(Batch(spec, places, measure.function, measure.options), stop)
     limit.cancel()
     each = (time.perf_counter() - begun) / places.size
-    return Cost(asked.points, tiles, there, each * (asked.points - there), bool(stop[0]))
+    return Cost(spec.points, tiles, there, each * (spec.points - there), bool(stop[0]))
 
 
 def duration(seconds: float) -> str:
@@ -183,7 +183,7 @@ def _submit(
 ) -> Pending:
     """Submit the points of a tile that neither an earlier run nor a coarser level has computed."""
     wanted = np.flatnonzero(tile.own(~known)).astype(np.int32)
-    work = list(batches(tile, results.asked, wanted, results.measure))
+    work = list(batches(tile, results.spec, wanted, results.measure))
     return Pending(
         tile, known, [each.wanted for each in work], [pool.submit(compute, each, stop) for each in work]
     )
@@ -247,7 +247,7 @@ def cores() -> int:
 
 
 def run_survey(
-    asked: SurveySpec,
+    spec: SurveySpec,
     measure: Measurement,
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
@@ -263,8 +263,8 @@ def run_survey(
     if store is None and repair:
         raise Refusal("repair", "be used with {store}, whose damaged tiles it recomputes")
     if store is None:
-        check_fits(asked, measure)
-        results = Memory(asked, measure)
+        check_fits(spec, measure)
+        results = Memory(spec, measure)
         _carry_out(
             results, executor, progress, "no results are kept (with store, running it again would resume it)"
         )
@@ -272,7 +272,7 @@ def run_survey(
     require_extra("store")
     from rocking.survey.zarr_store import opened
 
-    with opened(store, asked, measure, repair=repair) as kept:
+    with opened(store, spec, measure, repair=repair) as kept:
         _carry_out(
             kept, executor, progress, f"completed tiles are in {shown_path(store)}; run it again to resume"
         )
@@ -285,7 +285,7 @@ def _carry_out(results: Memory | Store, executor: Executor | None, progress: boo
         if not progress:
             run(results, executor)
             return
-        planned = cost(results.asked, results.measure, results.levels, results.done)
+        planned = cost(results.spec, results.measure, results.levels, results.done)
         title = planned.describe(cores() if executor is None else None)
         with Bar(planned.points, title=title, unit="points") as bar:
             run(results, executor, Watcher(bar, results.measure))

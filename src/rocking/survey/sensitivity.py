@@ -11,6 +11,7 @@ from attrs import evolve
 
 from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
+from rocking.model.progress import Bar
 from rocking.model.record_results import Sensitivity
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.validation import Refusal, instance, refuse_if, whole
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 TITLE = "Sensitivity of the verdicts of a free-standing block under ground motions"
 AMPLITUDE, RESTITUTION = 0.01, 0.02
 REPLICATES = 1000
+CHANGES = 5
 NONE = "none"
 
 
@@ -40,6 +42,7 @@ def sensitivity(
     model: str = "slender",
     seed: int = 0,
     executor: Executor | None = None,
+    progress: bool = False,
 ) -> Sensitivity:
     """Estimate the fraction of verdicts that change if the amplitude, the start or the restitution changes slightly.
 
@@ -64,8 +67,8 @@ def sensitivity(
         Default: "slender".
     seed : int
         Random seed of the bootstrap of the intervals, in [0, 2³² − 1]. Default: 0.
-    executor : concurrent.futures.Executor, optional
-        Executor that runs the computation. Default: threads on all cores.
+    executor, progress
+        As in `parametric_map`.
 
     Returns
     -------
@@ -105,24 +108,26 @@ def sensitivity(
         f"have a restitution in [{RESTITUTION}, {1.0 - RESTITUTION}]",
         block.restitution,
     )
-    asked = block_spec(chosen, block, levels, intensity, model=model)
+    spec = block_spec(chosen, block, levels, intensity, model=model)
     runs: dict[str, xr.Dataset] = {}
-    for name, changed in _changes(asked, chosen):
-        found = run_survey(changed, ending(TITLE, with_peak=False), None, executor)
-        runs[name] = of_block(found, changed, chosen, block).transpose("record", "level")
+    with Bar(CHANGES + 1, "changes", shown=instance("progress", progress, bool)) as bar:
+        for name, changed in _changes(spec, chosen):
+            found = run_survey(changed, ending(TITLE, with_peak=False), None, executor)
+            runs[name] = of_block(found, changed, chosen, block).transpose("record", "level")
+            bar.advance(1)
     return _summed_up(runs, order, random, block)
 
 
-def _changes(asked: MotionSpec, records: RecordSet) -> Iterator[tuple[str, MotionSpec]]:
+def _changes(spec: MotionSpec, records: RecordSet) -> Iterator[tuple[str, MotionSpec]]:
     """Yield the survey itself and each change of it, by name."""
-    yield NONE, asked
+    yield NONE, spec
     for sign, factor in (("+", 1.0 + AMPLITUDE), ("−", 1.0 - AMPLITUDE)):
-        levels = asked.axes["level"] * factor**asked.measure.power
-        yield f"amplitude {sign} 1 %", evolve(asked, axes=asked.axes | {"level": levels})
-    yield "start + ½ step", evolve(asked, motions=dict(enumerate(map(_between, records))))
+        levels = spec.axes["level"] * factor**spec.measure.power
+        yield f"amplitude {sign} 1 %", evolve(spec, axes=spec.axes | {"level": levels})
+    yield "start + ½ step", evolve(spec, motions=dict(enumerate(map(_between, records))))
     for sign, change in (("+", RESTITUTION), ("−", -RESTITUTION)):
-        fixed = asked.fixed | {"restitution": asked.fixed["restitution"] + change}
-        yield f"e {sign} {RESTITUTION}", evolve(asked, fixed=fixed)
+        fixed = spec.fixed | {"restitution": spec.fixed["restitution"] + change}
+        yield f"e {sign} {RESTITUTION}", evolve(spec, fixed=fixed)
 
 
 def _between(motion: GroundMotion) -> GroundMotion:

@@ -10,11 +10,12 @@ import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.forcing import Harmonic
+from rocking.model.progress import Bar
 from rocking.model.proof import ProvedShare
 from rocking.model.share import Share
 from rocking.model.survey_results import ChaosShare, ParametricMap
 from rocking.model.system import NO_BRACES, Braces, State, System
-from rocking.model.validation import Refusal, WrongType, whole
+from rocking.model.validation import Refusal, WrongType, instance, whole
 from rocking.model.verdict import Kind
 from rocking.proof.prove import check_provable
 from rocking.response.classify import KINDS, classify
@@ -41,6 +42,7 @@ def chaos_share(
     max_cycles: int = 20_000,
     max_period: int = 64,
     executor: Executor | None = None,
+    progress: bool = False,
 ) -> ChaosShare:
     """Estimate the fraction of chaotic responses from rest over the restitution, for random periods and amplitudes.
 
@@ -60,8 +62,8 @@ def chaos_share(
     max_cycles, max_period : int
         As in `classify`. A response is classified as chaotic after 10⁴ cycles at the earliest (with braces 10⁵).
         Default: 20,000 and 64.
-    executor : concurrent.futures.Executor, optional
-        Executor that runs the computation. Default: threads on all cores.
+    executor, progress
+        As in `parametric_map`.
 
     Returns
     -------
@@ -107,10 +109,12 @@ def chaos_share(
     count = whole("samples", samples, 1, MAX_SAMPLES)
     random = generator(seed)
     counts = []
-    for each in values.tolist():
-        drawn = {name: random.uniform(*ends, count) for name, ends in spans.items()}
-        kinds = sampled(points(drawn, {"restitution": each, **fixed}), measure, executor)["kind"]
-        counts.append(np.bincount(kinds, minlength=len(KINDS)))
+    with Bar(count * values.size, "responses", shown=instance("progress", progress, bool)) as bar:
+        for each in values.tolist():
+            drawn = {name: random.uniform(*ends, count) for name, ends in spans.items()}
+            kinds = sampled(points(drawn, {"restitution": each, **fixed}), measure, executor)["kind"]
+            counts.append(np.bincount(kinds, minlength=len(KINDS)))
+            bar.advance(count)
     return ChaosShare(*_summed_up(values, spans, fixed, measure, np.array(counts), seed), system=system)
 
 

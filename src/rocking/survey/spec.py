@@ -256,17 +256,17 @@ def _counted(count: int) -> str:
     return words.get(count, f"{count} quantities as arrays")
 
 
-def _check_braces(asked: HarmonicSpec) -> None:
+def _check_braces(spec: HarmonicSpec) -> None:
     """Raise ValueError for initial angles beyond the braces, or for braces at which a block lies flat."""
-    if "brace_angle" not in asked.axes and "brace_angle" not in asked.fixed:
+    if "brace_angle" not in spec.axes and "brace_angle" not in spec.fixed:
         return
-    if asked.full:
-        check_below_flat(max(_values(asked, "brace_angle")), max(_values(asked, "critical_angle")))
-    check_between(max(_values(asked, "angle"), key=abs), min(_values(asked, "brace_angle")))
+    if spec.full:
+        check_below_flat(max(_values(spec, "brace_angle")), max(_values(spec, "critical_angle")))
+    check_between(max(_values(spec, "angle"), key=abs), min(_values(spec, "brace_angle")))
 
 
-def _values(asked: HarmonicSpec, name: str) -> list[float]:
-    return asked.axes[name].tolist() if name in asked.axes else [asked.fixed.get(name, 0.0)]
+def _values(spec: HarmonicSpec, name: str) -> list[float]:
+    return spec.axes[name].tolist() if name in spec.axes else [spec.fixed.get(name, 0.0)]
 
 
 def points(values: Values, fixed: Mapping[str, float]) -> Points:

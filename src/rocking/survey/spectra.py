@@ -120,15 +120,15 @@ def rocking_spectrum(
     missing = [f"{{{name}}}" for name in ("size", "slenderness") if sizes.get(name) is None]
     if missing:
         raise Incomplete("a rocking spectrum", f"{' and '.join(missing)}, or a {{block}}", Text("none"))
-    asked = motion_spec(
+    spec = motion_spec(
         chosen,
         sizes | {"angle": angle, "polarity": polarity, "level": levels},
         intensity=intensity,
         inertia_ratio=RECTANGLE if inertia_ratio is None else inertia_ratio,
         model=model,
     )
-    found = run_survey(asked, ending(ROCKING_SPECTRUM), store, executor, progress=progress, repair=repair)
-    return RockingSpectrum(described(found, asked, chosen))
+    found = run_survey(spec, ending(ROCKING_SPECTRUM), store, executor, progress=progress, repair=repair)
+    return RockingSpectrum(described(found, spec, chosen))
 
 
 def quantities_of_block(block: Block) -> dict[str, Any]:
@@ -137,7 +137,7 @@ def quantities_of_block(block: Block) -> dict[str, Any]:
     return {"size": block.radius, "slenderness": block.critical_angle, "restitution": restitution}
 
 
-def described(found: xr.Dataset, asked: MotionSpec, records: RecordSet) -> xr.Dataset:
+def described(found: xr.Dataset, spec: MotionSpec, records: RecordSet) -> xr.Dataset:
     """Return a dataset with names and peak accelerations of its records, and α of its sizes."""
     if "record" in found.dims:
         pga = np.array([motion.pga for motion in records])
@@ -146,7 +146,7 @@ def described(found: xr.Dataset, asked: MotionSpec, records: RecordSet) -> xr.Da
     else:
         found.attrs["record"] = records.names[0]
     if "size" in found.dims:
-        ratio = asked.fixed["inertia_ratio"]
+        ratio = spec.fixed["inertia_ratio"]
         alpha = [frequency_parameter(size, ratio) for size in found["size"].values.tolist()]
         metadata = {"long_name": "frequency parameter", "symbol": "α", "units": "1/s"}
         found = found.assign_coords(frequency_parameter=("size", np.array(alpha), metadata))

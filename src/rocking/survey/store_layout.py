@@ -43,11 +43,11 @@ class Layout:
         return [Level(number, *part) for number, part in enumerate(parts)]
 
 
-def new_layout(asked: SurveySpec) -> Layout:
+def new_layout(spec: SurveySpec) -> Layout:
     """Return the layout of a new store."""
-    grids = levels(asked)
+    grids = levels(spec)
     halved = [each.halved for each in grids if each.halved is not None]
-    return Layout(asked.axes, halved, [each.tile for each in grids])
+    return Layout(spec.axes, halved, [each.tile for each in grids])
 
 
 def read_layout(stored: Mapping[str, Any]) -> Layout:
@@ -88,14 +88,14 @@ def described_layout(layout: Layout) -> dict[str, Any]:
     }
 
 
-def fingerprint(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
+def fingerprint(spec: SurveySpec, measure: Measurement) -> dict[str, Any]:
     """Return the properties that must agree to resume a store, and the version and processor that made it."""
     from rocking.kernels.library.processor import processor_class
 
     return {
         "survey": measure.title,
-        "over": list(asked.axes),
-        "fixed": asked.described(),
+        "over": list(spec.axes),
+        "fixed": spec.described(),
         "options": dict(measure.options),
         "variables": [each.name for each in measure.variables],
         "method": measure.method,
@@ -149,12 +149,12 @@ def why_finished(stored: Mapping[str, Any], mine: Mapping[str, Any]) -> str:
     return ""
 
 
-def joined(path: str, stored: Layout, asked: SurveySpec) -> Layout:
+def joined(path: str, stored: Layout, spec: SurveySpec) -> Layout:
     """Return the layout of a store together with a survey whose axes are equal, longer or finer (by powers of two).
 
     Raises ValueError for axes that omit or move values of the store.
     """
-    pairs = [_join(path, name, values, asked.axes[name]) for name, values in stored.axes.items()]
+    pairs = [_join(path, name, values, spec.axes[name]) for name, values in stored.axes.items()]
     axes = {name: values for name, (values, _) in zip(stored.axes, pairs, strict=True)}
     halvings = [times for _, times in pairs]
     more = [tuple(number < times for times in halvings) for number in range(max(halvings))]

@@ -110,14 +110,14 @@ class Tile:
         return left
 
 
-def levels(asked: SurveySpec) -> list[Level]:
+def levels(spec: SurveySpec) -> list[Level]:
     """Return the levels of a new survey, the coarsest first; each level halves the spacing along the long axes."""
-    grids = [asked.axes]
+    grids = [spec.axes]
     halvings: list[tuple[bool, ...]] = []
     while any(values.size > COARSEST for values in grids[0].values()):
         halvings.insert(0, tuple(values.size > COARSEST for values in grids[0].values()))
         grids.insert(0, thinned(grids[0], halvings[0]))
-    edges = tile_edges(asked.shape)
+    edges = tile_edges(spec.shape)
     return [
         Level(number, axes, halved, even_edges(axes, edges))
         for number, (axes, halved) in enumerate(zip(grids, (None, *halvings), strict=True))
@@ -130,9 +130,9 @@ def thinned(axes: dict[str, np.ndarray], halved: tuple[bool, ...]) -> dict[str, 
     return {name: values[::2] if half else values for (name, values), half in pairs}
 
 
-def finest(asked: SurveySpec) -> list[Level]:
+def finest(spec: SurveySpec) -> list[Level]:
     """Return the finest level alone, for a survey in memory, which needs no coarser one."""
-    return [Level(0, asked.axes, None, even_edges(asked.axes, tile_edges(asked.shape)))]
+    return [Level(0, spec.axes, None, even_edges(spec.axes, tile_edges(spec.shape)))]
 
 
 def tile_edges(shape: Sequence[int]) -> tuple[int, ...]:

@@ -131,10 +131,10 @@ def encoded(values: np.ndarray, chunk: tuple[int, ...], fill: float) -> bytes:
 
 
 def make_groups(
-    files: Files, asked: SurveySpec, measure: Measurement, levels: list[Level], there: dict[str, Any]
+    files: Files, spec: SurveySpec, measure: Measurement, levels: list[Level], there: dict[str, Any]
 ) -> list[zarr.Group]:
     """Return one group for each level, with the attributes of the survey; groups that are not ``there`` are created."""
-    metadata = _plain(attributes(asked, measure))
+    metadata = _plain(attributes(spec, measure))
     found = _made(files, {level.name: GroupMetadata(metadata) for level in levels}, there)
     for group in found.values():
         if not files.refusal and group.attrs.asdict() != metadata:
@@ -144,7 +144,7 @@ def make_groups(
 
 def make_arrays(
     files: Files,
-    asked: SurveySpec,
+    spec: SurveySpec,
     measure: Measurement,
     levels: list[Level],
     there: list[dict[str, Any]],
@@ -156,7 +156,7 @@ def make_arrays(
     wanted = {
         f"{level.name}/{name}": description
         for level in levels
-        for name, description in _descriptions(level, asked, measure).items()
+        for name, description in _descriptions(level, spec, measure).items()
     }
     known = {
         f"{level.name}/{name}": array
@@ -187,11 +187,11 @@ def _made(files: Files, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> 
     return found
 
 
-def _descriptions(level: Level, asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
+def _descriptions(level: Level, spec: SurveySpec, measure: Measurement) -> dict[str, Any]:
     """Return the metadata of a level: coordinates have a single chunk, variables one chunk per tile."""
     names = list(level.axes)
     along = {
-        name: _array(values.shape, values.shape, "float64", math.nan, [name], asked.coordinate(name))
+        name: _array(values.shape, values.shape, "float64", math.nan, [name], spec.coordinate(name))
         for name, values in level.axes.items()
     }
     return along | {

@@ -66,15 +66,15 @@ class Store:
     """
 
     def __init__(
-        self, path: Path, asked: SurveySpec, measure: Measurement, *, repair: bool, writable: bool
+        self, path: Path, spec: SurveySpec, measure: Measurement, *, repair: bool, writable: bool
     ) -> None:
         self.path, self.measure = path, measure
         self.files = Files(path)
         with defer_interrupt(), wrap_write_errors(path):
             self.outdated = ""
             self.finished = "" if writable else "its folder cannot be written"
-            self.layout, self.root, self.bound = self._agreed(asked)
-            self.asked = asked.with_axes(self.layout.axes)
+            self.layout, self.root, self.bound = self._agreed(spec)
+            self.spec = spec.with_axes(self.layout.axes)
             self.levels: list[Level] = self.layout.levels()
             if not self.finished:
                 remove_unfinished(path, [*self.layout.axes, *(each.name for each in measure.variables)])
@@ -85,7 +85,7 @@ class Store:
         ] = {}  # computed points of complete tiles
         self.held: dict[int, Arrays] = {}  # small levels other than the finest, by number
         self.check(repair=repair)
-        if self.finished and self.done < self.asked.points:
+        if self.finished and self.done < self.spec.points:
             raise StoreError(self.files.refusal)
 
     def known(self, tile: Tile) -> np.ndarray:
@@ -223,14 +223,14 @@ class Store:
     def _read(self, level: Level, name: str, region: Slices) -> np.ndarray:
         return np.asarray(self.arrays[level.number][name].get_basic_selection(region))
 
-    def _agreed(self, asked: SurveySpec) -> tuple[Layout, zarr.Group, bytes | None]:
+    def _agreed(self, spec: SurveySpec) -> tuple[Layout, zarr.Group, bytes | None]:
         """Return the layout of the store and the survey, the root group and the key of the survey; an error if they do not match.
 
         The key is None for a store whose tiles have no digests.
         """
-        mine = fingerprint(asked, self.measure)
+        mine = fingerprint(spec, self.measure)
         if not (self.path / ROOT).exists():
-            layout = new_layout(asked)
+            layout = new_layout(spec)
             metadata: dict[str, Any] = {NAME: mine | described_layout(layout)}
             root = zarr.create_group(self.files, zarr_format=3, attributes=metadata)
             return layout, root, zarr_files.survey_key(metadata[NAME])
@@ -251,7 +251,7 @@ class Store:
             )
         with reading(self.path):
             held = read_layout(stored)
-        layout = joined(str(self.path), held, asked)
+        layout = joined(str(self.path), held, spec)
         if stored | described_layout(layout) != stored:
             root.attrs[NAME] = stored | described_layout(layout)
         return layout, root, zarr_files.survey_key(stored) if stored["format"] == FORMAT else None
@@ -260,15 +260,15 @@ class Store:
         """Return the arrays of each level, created or enlarged as needed."""
         with reading(self.path):
             known = {level.name: self.root.get(level.name) for level in self.levels}
-        groups = zarr_metadata.make_groups(self.files, self.asked, self.measure, self.levels, known)
+        groups = zarr_metadata.make_groups(self.files, self.spec, self.measure, self.levels, known)
         with reading(self.path):
             there: list[dict[str, Any]] = [dict(group.arrays()) for group in groups]
-        return zarr_metadata.make_arrays(self.files, self.asked, self.measure, self.levels, there)
+        return zarr_metadata.make_arrays(self.files, self.spec, self.measure, self.levels, there)
 
 
 @contextmanager
 def opened(
-    path: str | os.PathLike[str], asked: SurveySpec, measure: Measurement, *, repair: bool
+    path: str | os.PathLike[str], spec: SurveySpec, measure: Measurement, *, repair: bool
 ) -> Iterator[Store]:
     """Open a store exclusively for this run; create it if it does not exist.
 
@@ -279,9 +279,9 @@ def opened(
     OSError
         If the path is not a folder, or the store holds other data, is in use, cannot be written or is damaged.
     """
-    if asked.points > MAX_POINTS:
+    if spec.points > MAX_POINTS:
         raise ValueError(
-            f"store must hold {MAX_POINTS:,} points at most; got {asked.points:,} (divide them among several stores)"
+            f"store must hold {MAX_POINTS:,} points at most; got {spec.points:,} (divide them among several stores)"
         )
     folder = check_store(path)
     place = folder.resolve()
@@ -290,7 +290,7 @@ def opened(
             place.mkdir(parents=True, exist_ok=True)
     writable = takes_files(place)
     with lock(folder, shared=not writable):
-        kept = Store(folder, asked, measure, repair=repair, writable=writable)
+        kept = Store(folder, spec, measure, repair=repair, writable=writable)
         if kept.outdated:
             warn_of_input(f"all results are read from store {shown_path(folder)}: {kept.outdated}")
         yield kept
