@@ -77,9 +77,9 @@ own = "rocking.kernels.", "rocking.explorer", "rocking.proof.", "rocking.survey.
 for module in pkgutil.walk_packages(rk.__path__, "rocking."):
     if not module.name.startswith(own):
         importlib.import_module(module.name)
-found = rk.parametric_map(amplitude=[1.0, 2.0], period=[1.0, 2.0], restitution=0.925)
-print(*found.kind.values.ravel(), rk.plot.tiles(found, "tiles").name)
 system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+found = rk.parametric_map(system, amplitude=[1.0, 2.0], period=[1.0, 2.0])
+print(*found.dataset.kind.values.ravel(), rk.plot.tiles(found, "tiles").name)
 print(rk.plot.animation(rk.simulate(system, cycles=1), "block.gif", seconds=0.1).name)
 """
 

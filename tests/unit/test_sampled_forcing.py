@@ -148,17 +148,20 @@ OF_A_SYSTEM = sorted(
     if inspect.isfunction(getattr(rk, name))
     and next(iter(inspect.signature(getattr(rk, name)).parameters), "") == "system"
 )
+WITHOUT_A_PERIOD = {"simulate", "overturning_spectrum"}
 MORE = {
     "bifurcation_set": {"max_period": 1, "period": (1.0, 2.0), "amplitude": (1.0, 2.0)},
     "basin_map": {"angle": [0.0, 0.1], "velocity": [0.0, 0.1]},
-    "orbit_diagram": {"parameter": "amplitude", "values": [1.0, 2.0]},
-    "response_diagram": {"parameter": "amplitude", "values": [1.0, 2.0]},
+    "orbit_diagram": {"amplitude": [1.0, 2.0]},
+    "response_diagram": {"amplitude": [1.0, 2.0]},
+    "frequency_response": {"period": [1.0, 2.0]},
+    "safe_basin": {"amplitude": [1.0, 2.0]},
     "find_orbit": {"guess": rk.State(), "period": 1},
     "find_orbits": {"max_period": 1},
 }
 
 
-@pytest.mark.parametrize("name", [name for name in OF_A_SYSTEM if name != "simulate"])
+@pytest.mark.parametrize("name", [name for name in OF_A_SYSTEM if name not in WITHOUT_A_PERIOD])
 def test_what_needs_a_period_refuses_a_finite_base_motion_and_names_what_answers(name):
     with pytest.raises(
         TypeError, match=r"^system must have a periodic base motion.*rk\.simulate.*"

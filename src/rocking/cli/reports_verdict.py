@@ -267,7 +267,13 @@ def modes_figure(plot: Any, modes: Modes, request: Request) -> Any:
     figure, axes = plot.panels(rows=2, height=2.9)
     for ax, quantity in zip(axes, ("velocity", "phase"), strict=True):
         plot.modes(
-            forcing.period, modes.system.restitution, modes.n, ax, quantity, forcing.amplitude, request.block
+            forcing.period,
+            modes.system.restitution,
+            modes.n,
+            ax,
+            request.block,
+            quantity=quantity,
+            amplitude=forcing.amplitude,
         )
     axes[0].get_legend().remove()  # it is that of the other panel, too
     return figure

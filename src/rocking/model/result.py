@@ -61,6 +61,11 @@ class Result:
 
     A result of a system that `Block.system` made is in SI units, unless ``units="normalised"`` is given. Any other is normalised;
     with a block it is in SI units.
+
+    Attributes
+    ----------
+    block : Block
+        Block that the system was made of; None if there is none.
     """
 
     __slots__ = ()
@@ -73,8 +78,8 @@ class Result:
     """Quantities of variables whose names mean something else in other results."""
 
     @property
-    def block(self) -> Any:
-        """Block in SI units that the system was made of; None if there is none."""
+    def block(self) -> Any:  # noqa: D102
+        # The class says what it is. Pages would take a docstring here for that of the fields `block` of other results.
         return getattr(getattr(self, "system", None), "block", None)
 
     def _data(self) -> xr.Dataset:
