@@ -27,10 +27,11 @@ class Reproduced(NamedTuple):
 
 @pytest.fixture(scope="session")
 def reproduced(tmp_path_factory):
-    from rocking.papers.yim_lin_1991.reproduce import reproduce
+    from rocking.papers.catalogue import YIM_LIN_1991
+    from rocking.papers.report.reproduce import reproduce
 
     folder = tmp_path_factory.mktemp("figures") / "made" / "here"
-    return Reproduced(folder, reproduce(folder))
+    return Reproduced(folder, reproduce(YIM_LIN_1991, folder))
 
 
 def pytest_addoption(parser):

@@ -1,6 +1,7 @@
 """Execution of every `python` and `sh` block when its page is built: output and pictures follow the block.
 
 The directive ``{script}`` shows a script: its docstring, its output, its picture and its source.
+The directive ``{figures}`` shows all figures of a paper: the caption, the picture and the source of each.
 """
 
 import ast
@@ -23,11 +24,19 @@ from sphinx.errors import ExtensionError
 from sphinx.transforms import SphinxTransform
 from sphinx.util import logging
 
+from rocking.papers.catalogue import PAPERS
+from rocking.papers.report.paper import Kind
+
 ROOT = Path(__file__).parents[2]
 RUNS = ROOT / "build" / "docs-runs"  # one folder per page, for the files that its blocks write
 DOTS_PER_INCH, CSS_PIXELS_PER_INCH = 200, 96
 LONG_LINE = 100  # a longer line is a sentence, not a row of a table
 TABLE = re.compile(r"\S {3,}\S")  # two columns
+PICTURE = """\
+import rocking as rk
+from {module} import {name}
+rk.plot.save({name}(), "{file}")
+"""
 logger = logging.getLogger(__name__)
 
 
@@ -102,30 +111,58 @@ def picture(path):
     )
 
 
-class Script(Directive):
-    """Section with the docstring of a script, its output, its pictures and its source."""
+class Described(Directive):
+    """Sections with a description, an output, pictures and a source."""
 
     required_arguments = 1
+
+    def section(self, name, description, code, file, source):
+        """Return the section of a piece of code that is run, with its source."""
+        first, _, rest = inspect.cleandoc(description).partition("\n\n")
+        section = nodes.section(ids=[nodes.make_id(name)], names=[name])
+        section += nodes.title("", " ".join(first.split()).rstrip("."))
+        self.state.nested_parse(rest.splitlines(), self.content_offset, section)
+        section += nodes.literal_block(code, code, **{"language": "python", "from-script": True})
+        section += nodes.raw("", f"<details><summary>{file}</summary>", format="html")
+        section += nodes.literal_block(source, source, language="python", shown=True)
+        section += nodes.raw("", "</details>", format="html")
+        return section
+
+
+class Script(Described):
+    """Section with the docstring of a script, its output, its pictures and its source."""
 
     def run(self):
         path = ROOT / self.arguments[0]
         self.state.document.settings.env.note_dependency(str(path))
         source = path.read_text(encoding="utf-8")
-        first, _, rest = inspect.cleandoc(ast.get_docstring(ast.parse(source))).partition("\n\n")
-        section = nodes.section(ids=[nodes.make_id(path.stem)], names=[path.stem])
-        section += nodes.title("", " ".join(first.split()).rstrip("."))
-        self.state.nested_parse(rest.splitlines(), self.content_offset, section)
-        code = source
-        if "__main__" not in source:  # a figure of a paper: its module only defines `draw`
-            module = ".".join(Path(self.arguments[0]).with_suffix("").parts[1:])
-            code = f"import rocking as rk\nfrom {module} import draw\nrk.plot.save(draw(), {path.stem + '.png'!r})"
-        section += nodes.literal_block(code, code, **{"language": "python", "from-script": True})
-        section += nodes.raw("", f"<details><summary>{path.name}</summary>", format="html")
-        section += nodes.literal_block(source, source, language="python", shown=True)
-        section += nodes.raw("", "</details>", format="html")
-        return [section]
+        return [self.section(path.stem, ast.get_docstring(ast.parse(source)), source, path.name, source)]
+
+
+class Figures(Described):
+    """Sections with caption, picture and source of all figures of a paper."""
+
+    def run(self):
+        return [
+            self.section(
+                part.stem,
+                part.compute.__doc__,
+                PICTURE.format(
+                    module=part.compute.__module__, name=part.compute.__name__, file=f"{part.stem}.png"
+                ),
+                f"{part.compute.__module__}.{part.compute.__name__}",
+                inspect.getsource(part.compute),
+            )
+            for part in figures_of(self.arguments[0])
+        ]
+
+
+def figures_of(paper):
+    """Return the figures of a paper, by the name of its report."""
+    return PAPERS[paper].of(Kind.FIGURE)
 
 
 def setup(app):
     app.add_transform(Executed)
     app.add_directive("script", Script)
+    app.add_directive("figures", Figures)

@@ -10,7 +10,7 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 from executed import ROOT
 
-from rocking.papers import PAPERS
+from rocking.papers.catalogue import PAPERS
 
 MADE = ROOT / "results"
 PAGE, TWIN = "index.html", "index.pdf"

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from entries import sections
-from executed import ROOT, RUNS
+from executed import ROOT, RUNS, figures_of
 from PIL import Image
 from sphinx.errors import ExtensionError
 
@@ -46,16 +46,25 @@ def cards_of_entries(page):
 
 
 def cards_of_scripts(page):
-    """List the one group of cards of a page of scripts, under no title."""
-    cards = []
-    for script in re.findall(r"^```\{script\} (\S+)$", page.read_text(encoding="utf-8"), re.MULTILINE):
-        stem = Path(script).stem
+    """List the one group of cards of a page of scripts or of figures of a paper, under no title."""
+    text = page.read_text(encoding="utf-8")
+    descriptions = {
+        part.stem: part.compute.__doc__ for name in named("figures", text) for part in figures_of(name)
+    }
+    for script in named("script", text):
         source = (ROOT / script).read_text(encoding="utf-8")
-        first = inspect.cleandoc(ast.get_docstring(ast.parse(source))).partition("\n\n")[0]
-        title = " ".join(first.split()).rstrip(".")
-        called = stem if "__main__" not in source else stem.replace("_", "-")
-        cards.append(Card(picture_called(RUNS / page.stem, called), title, "", nodes.make_id(stem)))
+        descriptions[Path(script).stem] = ast.get_docstring(ast.parse(source))
+    cards = []
+    for name, description in descriptions.items():
+        title = " ".join(inspect.cleandoc(description).partition("\n\n")[0].split()).rstrip(".")
+        picture = picture_called(RUNS / page.stem, name.replace("_", "-"))
+        cards.append(Card(picture, title, "", nodes.make_id(name)))
     return [("", cards)]
+
+
+def named(directive, text):
+    """List the arguments of a directive in a page."""
+    return re.findall(rf"^```\{{{directive}\}} (\S+)$", text, re.MULTILINE)
 
 
 def picture_called(folder, stem):

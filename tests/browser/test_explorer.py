@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rocking.papers.yim_lin_1991.cases import PERIODIC
+from rocking.papers.yim_lin_1991.surveys import PERIODIC
 from rocking.plot.style import LOOKS
 
 PICTURES = ("history", "portrait", "section", "spectrum", "basin")

@@ -9,16 +9,16 @@ import pytest
 
 import rocking as rk
 from rocking.model.text import percent
-from rocking.papers.yim_lin_1991 import cached_surveys, figure11
-from rocking.papers.yim_lin_1991.beyond import bifurcations, chaos, coexistence, crisis, zoom
+from rocking.papers.yim_lin_1991 import beyond, surveys
+from rocking.papers.yim_lin_1991.figures import figure_11
 
 
 def title(ax):
     return ax.get_title(loc="left")
 
 
-def caption(module):
-    return " ".join(inspect.cleandoc(module.__doc__).split())
+def caption(draw):
+    return " ".join(inspect.cleandoc(draw.__doc__).split())
 
 
 def points(ax, gid):
@@ -27,33 +27,33 @@ def points(ax, gid):
 
 def test_titles_of_the_crisis_are_those_of_the_runs_that_are_drawn(monkeypatch):
     monkeypatch.setattr(rk, "classify", None)  # whose run may follow another chaotic transient
-    left, right = crisis.draw().axes
+    left, right = beyond.crisis().axes
     for ax, amplitude in ((left, 4.86), (right, 4.88)):
         assert f"$A = {amplitude}$" in title(ax)
         (transient,), settled = points(ax, "section"), points(ax, "settled")
-        assert len(transient) + sum(map(len, settled)) == crisis.CYCLES + 1 - crisis.LEFT_OUT
+        assert len(transient) + sum(map(len, settled)) == beyond.CYCLES + 1 - beyond.LEFT_OUT
         told = re.search(r"period (\d+) from cycle ([\d,]+) on", title(ax))
         assert (told is None) == (not settled)
         assert ("not periodic" in title(ax)) == (not settled)
         if settled:
             period, cycle = (int(word.replace(",", "")) for word in told.groups())
-            assert cycle == crisis.LEFT_OUT + len(transient)
+            assert cycle == beyond.LEFT_OUT + len(transient)
             apart = [np.hypot(*(settled[0][n:] - settled[0][:-n]).T).max() for n in range(1, period + 1)]
             assert apart[-1] <= 1e-3 < min(apart[:-1], default=1.0)
             # the last point before them has not yet come back
             before = np.concatenate([transient[-1:], settled[0]])
             assert np.hypot(*(before[period] - before[0])) > 1e-3
-    assert "2·10⁴ cycles" in caption(crisis)
-    assert crisis.CYCLES == 20_000
+    assert "2·10⁴ cycles" in caption(beyond.crisis)
+    assert beyond.CYCLES == 20_000
 
 
 def test_texts_of_the_basins_have_the_exponents_and_fractions_that_were_computed(monkeypatch):
     made, basin_map = [], rk.basin_map
-    monkeypatch.setattr(coexistence, "COUNT", 40)
+    monkeypatch.setattr(beyond, "COUNT", 40)
     monkeypatch.setattr(
         rk, "basin_map", lambda *given, **named: made.append(basin_map(*given, **named)) or made[-1]
     )
-    (ax,) = coexistence.draw().axes
+    (ax,) = beyond.coexistence().axes
     (found,) = made
     texts = [text.get_text() for text in ax.texts]
     assert (
@@ -75,7 +75,7 @@ def test_enlarged_boundary_is_as_finely_divided_as_its_title_says(monkeypatch):
     monkeypatch.setattr(
         rk, "parametric_map", lambda *system, **axes: made.append(parametric_map(*system, **axes)) or made[-1]
     )
-    figure = zoom.draw()
+    figure = beyond.zoom()
     for ax, found in zip(figure.axes, made, strict=True):
         kinds = found.dataset.kind.transpose("amplitude", "period").values.tolist()
         pairs = [(one == 4) != (other == 4) for row in kinds for one, other in itertools.pairwise(row)]
@@ -90,8 +90,8 @@ def test_enlarged_boundary_is_as_finely_divided_as_its_title_says(monkeypatch):
 
 
 def test_axes_of_the_enlargement_count_from_its_centre_without_an_offset(monkeypatch):
-    monkeypatch.setattr(zoom, "COUNT", 24)
-    left, right = zoom.draw().axes
+    monkeypatch.setattr(beyond, "COUNT", 24)
+    left, right = beyond.zoom().axes
     assert (right.get_xlabel(), right.get_ylabel()) == ("$T - T_0$ (10⁻⁴)", "$A - A_0$ (10⁻³)")
     right.figure.draw_without_rendering()
     assert [text.get_text() for text in right.get_xticklabels()] == ["−4", "−2", "0", "2", "4"]
@@ -99,12 +99,12 @@ def test_axes_of_the_enlargement_count_from_its_centre_without_an_offset(monkeyp
     for ax in (left, right):
         assert {axis.get_offset_text().get_text() for axis in (ax.xaxis, ax.yaxis)} == {""}
     square = [line.get_xydata()[0] for line in left.lines if line.get_marker() == "s"]
-    np.testing.assert_array_equal(square, [zoom.CENTRE] * 2)
+    np.testing.assert_array_equal(square, [beyond.CENTRE] * 2)
 
 
 def test_caption_of_the_share_of_chaos_says_what_is_drawn(reproduced):
-    shares = dict(zip(cached_surveys.RESTITUTIONS, cached_surveys.chaos().shares, strict=True))
-    text = caption(chaos)
+    shares = dict(zip(surveys.RESTITUTIONS, surveys.chaos().shares, strict=True))
+    text = caption(beyond.chaos)
     assert "about every fifth system is chaotic at e = 0.2" in text
     assert shares[0.2].low <= 0.2 <= shares[0.2].high
     values = [share.value for e, share in shares.items() if e <= 0.8]
@@ -118,29 +118,36 @@ def test_caption_of_the_share_of_chaos_says_what_is_drawn(reproduced):
 
 
 def test_caption_of_figure_11_says_what_lies_beyond_the_first_curve(reproduced):
-    found = cached_surveys.damped().transpose("amplitude", "period")
+    found = surveys.damped().transpose("amplitude", "period")
     breaking = rk.theory.symmetry_breaking_amplitude(found.period.values, 0.925, 1)
     beyond = found.amplitude.values[:, None] > breaking
     stay = beyond & (found.kind.values != 4)
     alike = (found.kind == 1) & (found.response_period == 1) & (found.symmetric == 0)
-    assert "most points overturn; nearly all others have period 1 and are asymmetric" in caption(figure11)
+    assert "most points overturn; nearly all others have period 1 and are asymmetric" in caption(figure_11)
     assert stay.sum() < 0.5 * beyond.sum()
     assert (stay & alike.values).sum() > 0.95 * stay.sum()
 
 
 @pytest.mark.long
 def test_caption_of_the_bifurcation_curves_tells_what_is_drawn(monkeypatch):
-    shown = rk.parametric_map(cached_surveys.SYSTEM, **cached_surveys.axes(8), max_cycles=200).dataset
-    monkeypatch.setattr(cached_surveys, "damped", lambda: shown)
-    monkeypatch.setattr(bifurcations, "GRID", 3)
-    whole, part = bifurcations.draw().axes
+    shown = rk.parametric_map(surveys.SYSTEM, **surveys.axes(8), max_cycles=200).dataset
+    monkeypatch.setattr(surveys, "damped", lambda: shown)
+    monkeypatch.setattr(beyond, "GRID", 3)
+    searched, bifurcation_set = [], rk.bifurcation_set
+    monkeypatch.setattr(
+        rk,
+        "bifurcation_set",
+        lambda *given, **named: searched.append((given[1], named)) or bifurcation_set(*given, **named),
+    )
+    whole, part = beyond.bifurcations().axes
+    ((max_period, named),) = searched
     curves = [line for line in whole.lines if line.get_gid() not in (None, "codimension-2")]
     assert title(whole) == f"(a) {len(curves)} curves"
-    assert part.get_ylim() == bifurcations.PART[1]
-    told = caption(bifurcations)
-    assert f"up to period {bifurcations.MAX_PERIOD} over" in told
-    assert f"above A = {bifurcations.AMPLITUDES[0]}" in told
-    assert "12 × 12 points" in told
+    assert part.get_ylim() == (1.3, 5.0)
+    text = caption(beyond.bifurcations)
+    assert f"up to period {max_period} over" in text
+    assert f"above A = {named['amplitude'][0]}" in text
+    assert "12 × 12 points" in text
 
 
 def test_orbit_of_period_3_stays_stable_below_its_region_of_the_map():

@@ -7,11 +7,12 @@ from types import SimpleNamespace
 import pytest
 
 import rocking as rk
+from rocking.papers.catalogue import YIM_LIN_1991
 from rocking.papers.report import claim
 from rocking.papers.report.claim import Chapter, Finding, Standing
-from rocking.papers.yim_lin_1991 import cached_surveys
-from rocking.papers.yim_lin_1991.claims import CHAPTERS
+from rocking.papers.yim_lin_1991 import surveys
 
+CHAPTERS = YIM_LIN_1991.chapters
 PLACES = " | ".join(each.place for chapter in CHAPTERS for each in chapter)
 EXPLAINED = {
     "equation_10": (Standing.MISPRINT, "A₁₁ + A₂₂"),
@@ -102,9 +103,9 @@ def test_verdict_of_a_claim_that_does_not_hold_has_its_class_and_its_explanation
     ),
 )
 def test_explanation_is_shown_by_its_computation(compute):
-    judged = one(compute).judged()
-    assert judged.standing is EXPLAINED[compute][0], judged.finding
-    assert EXPLAINED[compute][1] in judged.because
+    verdict = one(compute).test()
+    assert verdict.standing is EXPLAINED[compute][0], verdict.finding
+    assert EXPLAINED[compute][1] in verdict.because
 
 
 def test_misprints_errors_and_qualifications_are_told_apart():
@@ -136,7 +137,7 @@ MACHINE = {
      "damped_quasi_periodic", "eigenvalues", "figure_7c", "exponent_quasi_periodic"],
 )  # fmt: skip
 def test_figures_of_a_claim_are_printed_as_in_a_journal(compute):
-    figures = one(compute).judged().finding.figures
+    figures = one(compute).test().finding.figures
     assert {name: figures for name, machine in MACHINE.items() if re.search(machine, figures)} == {}
 
 
@@ -170,8 +171,8 @@ def test_verdict_follows_from_what_was_computed(holds, shown, standing, because)
         """Something."""
         return Finding(holds, "1", shown)
 
-    judged = chapter[0].judged()
-    assert (judged.standing, judged.because, judged.claim.says) == (standing, because, "Something")
+    verdict = chapter[0].test()
+    assert (verdict.standing, verdict.because, verdict.claim.says) == (standing, because, "Something")
 
 
 COUNTS = {
@@ -208,13 +209,13 @@ COUNTS = {
 def test_what_is_said_of_the_share_of_chaos_stands_only_with_the_numbers_of_its_row(
     monkeypatch, compute, other
 ):
-    def judged(counts):
-        found = SimpleNamespace(shares=[rk.Share(counts[e], 400) for e in cached_surveys.RESTITUTIONS])
-        monkeypatch.setattr(cached_surveys, "chaos", lambda: found)
-        return one(compute).judged()
+    def verdict(counts):
+        found = SimpleNamespace(shares=[rk.Share(counts[e], 400) for e in surveys.RESTITUTIONS])
+        monkeypatch.setattr(surveys, "chaos", lambda: found)
+        return one(compute).test()
 
-    assert judged(COUNTS).standing is one(compute).otherwise
-    assert judged(COUNTS | other).standing is Standing.NOT_CONFIRMED
+    assert verdict(COUNTS).standing is one(compute).otherwise
+    assert verdict(COUNTS | other).standing is Standing.NOT_CONFIRMED
 
 
 def test_claim_without_another_explanation_is_unexplained_when_it_does_not_hold():
@@ -223,6 +224,6 @@ def test_claim_without_another_explanation_is_unexplained_when_it_does_not_hold(
     @chapter.claim("anywhere")
     def anything():
         """Something."""
-        return Finding(False, "1", shown=True)
+        return Finding(False, "1", explained=True)
 
-    assert chapter[0].judged().standing is claim.Standing.NOT_CONFIRMED
+    assert chapter[0].test().standing is claim.Standing.NOT_CONFIRMED

@@ -10,7 +10,7 @@ import pytest
 
 import rocking as rk
 from oracles import brute
-from rocking.papers.yim_lin_1991 import cached_surveys
+from rocking.papers.yim_lin_1991 import surveys
 
 RESTITUTION = 0.925
 KINDS = [str(kind) for kind in rk.Kind]
@@ -56,7 +56,7 @@ def check(axes, places, cycles):
 
 
 def axes_of(count):
-    return [cached_surveys.axes(count)[name] for name in ("amplitude", "period")]
+    return [surveys.axes(count)[name] for name in ("amplitude", "period")]
 
 
 @pytest.mark.long

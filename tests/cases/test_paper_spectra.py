@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import cases, figure07, figure08, table_exponents
+from rocking.papers.yim_lin_1991 import figures, surveys
 
 ROTATION = 0.4744150886  # turns about the island's centre in 3 cycles, THEORY §8
-PERIODIC = cases.PERIODIC[1]
+PERIODIC = surveys.PERIODIC[1]
 
 
 def density_of(case, transient, cycles, **how):
@@ -22,7 +22,7 @@ def subharmonic():
 
 @pytest.fixture(scope="module")
 def quasi_periodic():
-    return density_of(cases.QUASI_PERIODIC, 0, 8_192)
+    return density_of(surveys.QUASI_PERIODIC, 0, 8_192)
 
 
 def test_lines_of_figure_8a_are_all_odd_multiples_of_a_third_and_nothing_else(subharmonic):
@@ -54,7 +54,7 @@ def test_ten_strongest_lines_of_figure_8b_are_combinations_with_the_known_rotati
     """Lines at (k + mρ)/3 of the forcing; k odd, because the torus is its own mirror image."""
     # another count of whole turns in 3 cycles is the same torus: k then changes by m for each
     rotation = (ROTATION + 2 * turns) / 3
-    density = density_of(cases.QUASI_PERIODIC, 0, 8_192, rotation=rotation)
+    density = density_of(surveys.QUASI_PERIODIC, 0, 8_192, rotation=rotation)
     assert density.parts == 3
     named = [(3 * peak.forcing_multiple, peak.rotation_multiple) for peak in density.peaks]
     assert len(named) == 40
@@ -101,7 +101,7 @@ def test_lines_of_figure_8b_carry_the_variance(quasi_periodic):
 
 
 def test_half_the_record_gives_the_same_lines_to_its_own_resolution(quasi_periodic):
-    half = density_of(cases.QUASI_PERIODIC, 0, 4_096)
+    half = density_of(surveys.QUASI_PERIODIC, 0, 4_096)
     assert half.resolution == pytest.approx(2 * quasi_periodic.resolution)
     for peak, other in zip(half.peaks[:10], quasi_periodic.peaks[:10], strict=True):
         assert peak.name == other.name
@@ -113,7 +113,7 @@ def test_half_the_record_gives_the_same_lines_to_its_own_resolution(quasi_period
 def test_figure_8c_is_a_broad_band_with_the_line_of_the_forcing():
     """From phases as good as the same; where a motion clings to an island for long, at f/2, that has a line too."""
     strongest, shares, broad = [], [], 0
-    for system in table_exponents.sea_systems(9):
+    for system in surveys.sea_systems(9):
         density = rk.spectral_density(rk.simulate(system, cycles=8_192))
         strongest.append(density.peaks[0].name)
         shares.append(density.line_share)
@@ -130,7 +130,7 @@ def test_figure_8c_is_a_broad_band_with_the_line_of_the_forcing():
 
 
 @pytest.mark.parametrize(
-    ("case", "transient", "cycles"), [(PERIODIC, 600, 8_190), (cases.QUASI_PERIODIC, 0, 8_192)]
+    ("case", "transient", "cycles"), [(PERIODIC, 600, 8_190), (surveys.QUASI_PERIODIC, 0, 8_192)]
 )
 def test_power_is_the_variance_of_exact_samples(case, transient, cycles):
     """Parseval: the window weighs the cycles, so that what beats with the segments may differ by a thousandth."""
@@ -145,7 +145,7 @@ def test_power_is_the_variance_of_exact_samples(case, transient, cycles):
 
 
 def test_figure_7_has_three_points_three_curves_and_a_sea():
-    points = [np.column_stack(ax.lines[0].get_data()) for ax in figure07.draw().axes]
+    points = [np.column_stack(ax.lines[0].get_data()) for ax in figures.figure_7().axes]
     assert [len(shown) for shown in points] == [12, 30_000, 100_000]
     assert len(np.unique(points[0].round(9), axis=0)) == 3
 
@@ -160,7 +160,7 @@ def test_figure_7_has_three_points_three_curves_and_a_sea():
 
 @pytest.mark.long
 def test_figure_8_names_the_lines_that_the_page_shows():
-    names = [{text.get_text() for text in ax.texts} for ax in figure08.draw().axes]
+    names = [{text.get_text() for text in ax.texts} for ax in figures.figure_8().axes]
     assert names[0] == {"$f/3$", "$f$", "$5f/3$", "$7f/3$", "$3f$"}
     assert {"$f/3$", "$f$", "$f_r$", "$2f/3 − f_r$"} <= names[1]
     assert "$f$" in names[2]

@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import rocking as rk
+from rocking.papers.catalogue import YIM_LIN_1991
 from rocking.papers.report import page, workers
 from rocking.papers.report.claim import Standing
-from rocking.papers.yim_lin_1991 import cases
-from rocking.papers.yim_lin_1991.claims import CHAPTERS
-from rocking.papers.yim_lin_1991.reproduce import reproduce
+from rocking.papers.report.reproduce import reproduce
+from rocking.papers.yim_lin_1991 import surveys
 
 NAMES = ["01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11", "12", "13a", "13b"]
 TABLES = [f"table-{name}{kind}" for name in ("exponents", "claims") for kind in (".csv", ".md")]
@@ -58,10 +58,10 @@ def test_table_sets_the_papers_numbers_beside_ours(reproduced):
     assert paths[1].read_text(encoding="utf-8").count("\n") == 6
 
 
-def test_table_of_claims_holds_every_one_and_each_stands_as_its_judge_expects(folder):
+def test_table_of_claims_holds_every_one_and_each_has_the_expected_verdict(folder):
     with (folder / "table-claims.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    claims = [each for chapter in CHAPTERS for each in chapter]
+    claims = [each for chapter in YIM_LIN_1991.chapters for each in chapter]
     # of what holds nothing is said in its place, and what does not hold is shown to be otherwise
     expected = [each.otherwise if each.because else Standing.CONFIRMED for each in claims]
     assert [(row["place"], row["verdict"]) for row in rows] == [
@@ -74,7 +74,7 @@ def test_table_of_claims_holds_every_one_and_each_stands_as_its_judge_expects(fo
 def test_page_holds_every_picture_and_claim_and_asks_for_nothing(folder):
     page = (folder / "index.html").read_text(encoding="utf-8")
     assert page.count('<img src="data:image/') == page.count("<img") == len(NAMES) + len(BEYOND)
-    assert page.count("<tr>") - page.count("<thead>") == sum(map(len, CHAPTERS))
+    assert page.count("<tr>") - page.count("<thead>") == sum(map(len, YIM_LIN_1991.chapters))
     assert not re.search(r"""(src|href)=(?!["']?(data:|#))|@import|url\(|<script""", page)
 
 
@@ -90,12 +90,12 @@ def test_second_run_gives_the_same_bytes_under_any_settings(folder, tmp_path):
     with mpl.rc_context(
         {"axes.facecolor": "black", "font.size": 20, "lines.linestyle": "--", "svg.fonttype": "none"}
     ):
-        again = reproduce(tmp_path, figures=[1, 2, 4, 7, 9, 12, "13a", "threshold", "crisis"])
+        again = reproduce(YIM_LIN_1991, tmp_path, figures=[1, 2, 4, 7, 9, 12, "13a", "threshold", "crisis"])
     assert all(path.read_bytes() == (folder / path.name).read_bytes() for path in again)
 
 
 def test_figures_are_chosen_by_number(tmp_path):
-    paths = reproduce(tmp_path, figures=[4, "1"])
+    paths = reproduce(YIM_LIN_1991, tmp_path, figures=[4, "1"])
     assert [path.name for path in paths] == [
         "figure-04.png",
         "figure-04.svg",
@@ -110,14 +110,14 @@ def test_unknown_figure_is_refused_before_anything_is_written(tmp_path):
         match="^figures must be among 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13a, 13b, exponents, claims, "
         "chaos, cascade, crisis, threshold, coexistence, zoom, bifurcations; got '14'$",
     ):
-        reproduce(tmp_path / "new", figures=[1, 14])
+        reproduce(YIM_LIN_1991, tmp_path / "new", figures=[1, 14])
     assert not list(tmp_path.iterdir())
 
 
 def test_folder_that_is_a_file_is_refused_in_one_line(tmp_path):
     (tmp_path / "taken").touch()
     with pytest.raises(OSError, match="^folder must be a folder that can be written; got '.*taken'$"):
-        reproduce(tmp_path / "taken")
+        reproduce(YIM_LIN_1991, tmp_path / "taken")
 
 
 def test_interrupted_run_leaves_only_whole_files(tmp_path, monkeypatch):
@@ -132,14 +132,14 @@ def test_interrupted_run_leaves_only_whole_files(tmp_path, monkeypatch):
     monkeypatch.setattr(Figure, "savefig", interrupted)
     monkeypatch.setattr(workers, "cores", lambda: 1)
     with pytest.raises(KeyboardInterrupt):
-        reproduce(tmp_path)
+        reproduce(YIM_LIN_1991, tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["figure-01.png"]
     Image.open(io.BytesIO((tmp_path / "figure-01.png").read_bytes())).verify()
 
 
 @pytest.mark.parametrize(
     ("case", "period", "impacts", "symmetric"),
-    list(zip(cases.PERIODIC, (1, 3, 10), (2, 2, 4), (True, True, False), strict=True)),
+    list(zip(surveys.PERIODIC, (1, 3, 10), (2, 2, 4), (True, True, False), strict=True)),
     ids=lambda value: getattr(value, "name", None),
 )
 def test_periodic_motions_repeat_within_the_cycles_shown(case, period, impacts, symmetric):
@@ -159,14 +159,16 @@ def test_periodic_motions_repeat_within_the_cycles_shown(case, period, impacts, 
 
 
 def test_overturning_of_figure_4_comes_in_the_sixth_cycle_after_four_impacts():
-    motion = cases.OVERTURNING.motion()
+    motion = surveys.OVERTURNING.motion()
     assert motion.outcome is rk.Outcome.OVERTURNED
     assert 5 <= motion.overturning.time / 2.0 < 6
     assert motion.impacts == 4
 
 
 def test_undamped_motions_of_figures_5_and_6_stay_bounded():
-    assert {case.motion().outcome for case in (cases.QUASI_PERIODIC, cases.CHAOTIC)} == {rk.Outcome.BOUNDED}
+    assert {case.motion().outcome for case in (surveys.QUASI_PERIODIC, surveys.CHAOTIC)} == {
+        rk.Outcome.BOUNDED
+    }
 
 
 def test_neighbours_part_in_figure_6_and_not_in_figure_5():
@@ -175,9 +177,9 @@ def test_neighbours_part_in_figure_6_and_not_in_figure_5():
         near = rk.simulate(case.system, rk.State(velocity=1e-9), cycles=motion.cycles)
         return np.abs(motion.section()[-1] - near.section()[-1]).max() / 1e-9
 
-    assert spread(cases.CHAOTIC) > 1e3 > spread(cases.QUASI_PERIODIC)
+    assert spread(surveys.CHAOTIC) > 1e3 > spread(surveys.QUASI_PERIODIC)
 
 
 def test_time_never_goes_back_between_the_braces():
-    events = rk.simulate(cases.BRACED, cycles=50_000).events
+    events = rk.simulate(surveys.BRACED, cycles=50_000).events
     assert (np.diff(events["time"]) > 0).all()

@@ -10,13 +10,13 @@ import pytest
 from PIL import Image
 
 import rocking as rk
-from rocking.papers import PAPERS, room_of
-from rocking.papers.pulses_and_earthquakes import judging, records, runge_kutta, thresholds
-from rocking.papers.pulses_and_earthquakes.claims import CHAPTERS
-from rocking.papers.pulses_and_earthquakes.reproduce import reproduce
+from rocking.papers.catalogue import PULSES_AND_EARTHQUAKES
+from rocking.papers.pulses_and_earthquakes import runge_kutta, surveys, thresholds
 from rocking.papers.report import page
 from rocking.papers.report.claim import Standing
+from rocking.papers.report.reproduce import reproduce
 
+CHAPTERS = PULSES_AND_EARTHQUAKES.chapters
 FIGURES = ["01", "02", "03", "04", "05"]
 ROWS = {(chapter.title, claim.compute.__name__): claim for chapter in CHAPTERS for claim in chapter}
 ZHANG, MAKRIS, ROUSSOS, HOUSNER = (
@@ -28,44 +28,44 @@ ZHANG, MAKRIS, ROUSSOS, HOUSNER = (
 
 
 @pytest.fixture(scope="module")
-def judged():
-    return {name: claim.judged() for name, claim in ROWS.items()}
+def verdicts():
+    return {name: claim.test() for name, claim in ROWS.items()}
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("report")
     lines = []
-    reproduce(folder, summary=lines.append)
+    reproduce(PULSES_AND_EARTHQUAKES, folder, summary=lines.append)
     return folder, lines
 
 
-def test_every_row_is_computed_and_stands_as_its_judge_expects(judged):
-    for claim, found in zip(ROWS.values(), judged.values(), strict=True):
+def test_every_row_is_computed_and_has_the_expected_verdict(verdicts):
+    for claim, found in zip(ROWS.values(), verdicts.values(), strict=True):
         expected = claim.otherwise if claim.because else Standing.CONFIRMED
         assert found.standing is expected, (claim.place, found.finding)
         assert re.search(r"\d", found.finding.figures)
 
 
-def test_no_row_is_unexplained(judged):
-    for found in judged.values():
+def test_no_row_is_unexplained(verdicts):
+    for found in verdicts.values():
         assert bool(found.because) == (found.standing is not Standing.CONFIRMED)
-    assert {found.standing for found in judged.values()} == {
+    assert {found.standing for found in verdicts.values()} == {
         Standing.CONFIRMED,
         Standing.QUALIFIED,
         Standing.ERROR,
-        Standing.NOT_JUDGED,
+        Standing.UNTESTED,
     }
 
 
-def test_what_is_not_judged_needs_another_record(judged):
-    reasons = {found.because for found in judged.values() if found.standing is Standing.NOT_JUDGED}
-    assert reasons == {judging.NO_RECORD}
+def test_what_is_not_judged_needs_another_record(verdicts):
+    reasons = {found.because for found in verdicts.values() if found.standing is Standing.UNTESTED}
+    assert reasons == {surveys.NO_RECORD}
 
 
-def test_rows_of_the_full_equation_are_judged(judged):
+def test_rows_of_the_full_equation_are_judged(verdicts):
     full = {
-        claim.compute.__name__: judged[name].standing
+        claim.compute.__name__: verdicts[name].standing
         for name, claim in ROWS.items()
         if re.search(r"[Ff]ull equation", claim.says)
     }
@@ -76,7 +76,7 @@ def test_rows_of_the_full_equation_are_judged(judged):
         "figure_4_peaks": Standing.QUALIFIED,
         "script": Standing.QUALIFIED,
     }
-    assert judged[ROUSSOS, "figure_11"].standing is Standing.QUALIFIED
+    assert verdicts[ROUSSOS, "figure_11"].standing is Standing.QUALIFIED
 
 
 RECALLED = "Ishiyama|Purvance|Dimitrakopoulos|Giouvanidis|Kazantzi|Kavvadias|ASCE|Anooshehpoor|Yim|Vassiliou|Kalliontzis"
@@ -119,8 +119,8 @@ KNOWN = [
 
 
 @pytest.mark.parametrize(("paper", "row", "known", "error"), KNOWN, ids=str)
-def test_computed_number_is_that_of_another_method(judged, paper, row, known, error):
-    numbers = [float(word) for word in re.findall(r"\d+\.\d{5,}", judged[paper, row].finding.figures)]
+def test_computed_number_is_that_of_another_method(verdicts, paper, row, known, error):
+    numbers = [float(word) for word in re.findall(r"\d+\.\d{5,}", verdicts[paper, row].finding.figures)]
     assert min(abs(number - known) for number in numbers) <= error
 
 
@@ -143,13 +143,13 @@ def test_accelerations_are_those_of_another_method_at_its_value_of_g(kind, heigh
     assert found == pytest.approx(known, abs=5.1e-7)
 
 
-def test_phases_of_the_pulses_are_those_of_forty_digits(judged):
+def test_phases_of_the_pulses_are_those_of_forty_digits(verdicts):
     with mp.workdps(40):
         known = [
             mp.findroot(lambda phi, n=n: mp.tan(phi) * ((2 * n + 1) * mp.pi - 2 * phi) - 2, 0.1) / mp.pi
             for n in (1, 2)
         ]
-    found = [float(word) for word in re.findall(r"(\d\.\d{6})π", judged[ROUSSOS, "phases"].finding.figures)]
+    found = [float(word) for word in re.findall(r"(\d\.\d{6})π", verdicts[ROUSSOS, "phases"].finding.figures)]
     # half a unit of the last digit shown
     assert found == pytest.approx([float(value) for value in known], abs=5.1e-7)
 
@@ -187,15 +187,15 @@ def test_step_of_runge_kutta_is_of_fourth_order():
 
 
 def test_scales_that_overturn_are_those_of_single_motions(thin):
-    record, found = rk.example_ground_motion(), records.scales()
+    record, found = rk.example_ground_motion(), surveys.scales()
     block = rk.Block(
-        height=2 * records.SIZE * math.cos(records.SLENDERNESS),
-        width=2 * records.SIZE * math.sin(records.SLENDERNESS),
+        height=2 * surveys.SIZE * math.cos(surveys.SLENDERNESS),
+        width=2 * surveys.SIZE * math.sin(surveys.SLENDERNESS),
     )
     sure = np.flatnonzero(found.certified.values)
     for number in thin(sure, 12, seed=5):
         motion = rk.simulate(block.system(record.scaled(float(found["level"][number]))), record="none")
-        assert (motion.outcome is rk.Outcome.OVERTURNED) == records.fallen(found)[number]
+        assert (motion.outcome is rk.Outcome.OVERTURNED) == surveys.fallen(found)[number]
 
 
 def test_bisection_that_brackets_nothing_is_not_a_number():
@@ -204,9 +204,9 @@ def test_bisection_that_brackets_nothing_is_not_a_number():
 
 
 def test_distance_from_a_printed_pair_is_zero_between_its_numbers():
-    assert judging.outside(3.005, 3.00, 3.01) == judging.outside(3.005, 3.01, 3.00) == 0.0
-    assert judging.outside(3.02, 3.00, 3.01) == pytest.approx(0.01)
-    assert judging.outside(2.98, 3.00, 3.01) == pytest.approx(0.02)
+    assert thresholds.outside(3.005, 3.00, 3.01) == thresholds.outside(3.005, 3.01, 3.00) == 0.0
+    assert thresholds.outside(3.02, 3.00, 3.01) == pytest.approx(0.01)
+    assert thresholds.outside(2.98, 3.00, 3.01) == pytest.approx(0.02)
 
 
 @pytest.mark.long
@@ -240,15 +240,11 @@ def test_no_picture_is_blank(folder, name):
 
 @pytest.mark.long
 def test_figures_have_the_same_bytes_each_time(folder, tmp_path):
-    again = reproduce(tmp_path, figures=[2, 3])
+    again = reproduce(PULSES_AND_EARTHQUAKES, tmp_path, figures=[2, 3])
     assert all(path.read_bytes() == (folder[0] / path.name).read_bytes() for path in again)
-
-
-def test_every_report_can_be_found_by_its_name():
-    assert all(callable(room_of(name).reproduce) for name in PAPERS)
 
 
 def test_unknown_figure_is_refused(tmp_path):
     with pytest.raises(ValueError, match="^figures must be among 1, 2, 3, 4, 5, claims; got '6'$"):
-        reproduce(tmp_path / "new", figures=[6])
+        reproduce(PULSES_AND_EARTHQUAKES, tmp_path / "new", figures=[6])
     assert not list(tmp_path.iterdir())

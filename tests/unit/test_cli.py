@@ -18,7 +18,7 @@ import rocking as rk
 from rocking.cli.main import main
 from rocking.model.text import ordinal
 from rocking.papers.report.claim import Chapter, Finding
-from rocking.papers.yim_lin_1991.reproduce import reproduce
+from rocking.papers.report.paper import Paper
 
 NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
 SI = "--height 2 --width 0.5 --acceleration 2.9 --frequency-hz 1.8"
@@ -230,7 +230,7 @@ def three_claims():
     chapter = Chapter("of three")
     chapter.claim("first")(lambda: Finding(True, "1"))
     chapter.claim("second")(lambda: Finding(True, "2"))
-    chapter.claim("third", error="3")(lambda: Finding(False, "3", shown=True))
+    chapter.claim("third", error="3")(lambda: Finding(False, "3", explained=True))
     return (chapter,)
 
 
@@ -242,16 +242,16 @@ def three_claims():
     ],
 )
 def test_paper_ends_with_how_its_claims_stand(rocking, monkeypatch, figures, last):
-    monkeypatch.setattr(sys.modules[reproduce.__module__], "_chapters", three_claims)
+    monkeypatch.setattr(Paper, "chapters", three_claims())
     assert rocking(f"paper {figures} --output made")[2].splitlines()[-1] == last
 
 
 def test_whole_paper_ends_with_the_page_to_open(rocking, monkeypatch):
-    def nothing(folder, figures, progress, summary):
+    def nothing(paper, folder, figures, progress, summary):
         summary("3 claims of the paper: confirmed (3)")
         return [folder / "index.html"]
 
-    monkeypatch.setattr("rocking.papers.yim_lin_1991.reproduce", nothing)
+    monkeypatch.setattr("rocking.papers.report.reproduce.reproduce", nothing)
     told = ["wrote 1 file into made", "3 claims of the paper: confirmed (3); open made/index.html"]
     assert rocking("paper --output made")[2].splitlines() == told
 

@@ -8,7 +8,8 @@ import pytest
 import rocking as rk
 from rocking.kernels.entry_point import EntryPoint
 from rocking.model.package import EXTRAS
-from rocking.papers.yim_lin_1991.reproduce import reproduce
+from rocking.papers.catalogue import YIM_LIN_1991
+from rocking.papers.report.reproduce import reproduce
 from rocking.records.text_file import TEXTS
 from rocking.survey.export import to_netcdf
 
@@ -42,7 +43,7 @@ PROOF = "proofs need python-flint"
         ("film", "imageio_ffmpeg", lambda: rk.plot.animation(MOTION, "block.mp4"), FILM),
         ("explorer", "bokeh", "explore --port 0 --no-browser", EXPLORER),
         ("report", "weasyprint", "paper", REPORT),
-        ("report", "jinja2", lambda: reproduce("results"), REPORT),
+        ("report", "jinja2", lambda: reproduce(YIM_LIN_1991, "results"), REPORT),
         ("proof", "flint", f"classify {RUN} --prove", PROOF),
         ("proof", "flint", lambda: rk.horseshoe(SYSTEM), PROOF),
         ("obspy", "obspy", f"record made/a.sac {BLOCK}", f"a.sac: a binary file; {TEXTS}; ObsPy reads more formats"),

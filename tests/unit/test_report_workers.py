@@ -12,8 +12,9 @@ from pathlib import Path
 import pytest
 
 from rocking.model.progress import Bar
-from rocking.papers import PAPERS, room_of
+from rocking.papers.catalogue import PAPERS
 from rocking.papers.report import workers
+from rocking.papers.report.reproduce import steps_of
 from rocking.papers.report.workers import Step, carry_out, shared
 
 BOTH = pytest.mark.parametrize("cores", [1, 2], ids=["here", "two processes"])
@@ -140,10 +141,9 @@ def test_alone_a_process_keeps_no_shared_results():
 
 @pytest.mark.parametrize("name", PAPERS)
 def test_every_step_of_a_report_can_be_sent_and_the_costs_are_those_of_the_long_ones(name):
-    paper = room_of(name).PAPER
-    steps = [step for part in paper.names for step in paper.steps(part, Path("made"))]
-    assert all(
-        getattr(sys.modules[step.compute.__module__], step.compute.__name__) is step.compute for step in steps
-    )
+    paper = PAPERS[name]
+    steps = [step for part in paper.names for step in steps_of(paper, part, Path("made"))]
+    functions = [each for step in steps for each in (step.compute, *step.arguments) if callable(each)]
+    assert all(getattr(sys.modules[each.__module__], each.__name__) is each for each in functions)
     costs = sorted(step.cost for step in steps)
     assert 0.0 < costs[0] < 0.1 < 1.0 < costs[-1]

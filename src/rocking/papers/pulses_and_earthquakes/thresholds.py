@@ -1,4 +1,4 @@
-"""Amplitudes that overturn a block under a pulse, from the simulation by bisection."""
+"""Amplitudes that overturn a block under a pulse, from the simulation by bisection, and their distance from printed numbers."""
 
 from __future__ import annotations
 
@@ -17,6 +17,10 @@ TURNS = {"rectangular": math.pi, "half-sine": math.pi, "one-sine": math.tau, "on
 """Ω T of each pulse; that of a rectangular pulse is a convention."""
 STEP = 0.02
 """Step of the search for the lowest amplitude that overturns the block."""
+THIRD_DIGIT = 0.01
+"""One unit of the last digit of Zhang & Makris (2001), whose numbers have three digits."""
+IN_G = 1e-3
+"""Smallest difference between two accelerations that Makris & Roussos (2000) print, in g, except in Fig. 9."""
 
 
 def system(
@@ -60,13 +64,13 @@ def at_once(kind: str, frequency: float, amplitude: float) -> bool:
     return motion.outcome is rk.Outcome.OVERTURNED and motion.impacts == 0
 
 
-def bisected(question: Callable[[float], bool], no: float, yes: float) -> float:
+def bisected(condition: Callable[[float], bool], no: float, yes: float) -> float:
     """Return the number between `no` and `yes` at which the answer changes; NaN if it does not."""
-    if question(no) or not question(yes):
+    if condition(no) or not condition(yes):
         return math.nan
     while abs(yes - no) > RELATIVE * abs(yes):
         middle = 0.5 * (no + yes)
-        no, yes = (no, middle) if question(middle) else (middle, yes)
+        no, yes = (no, middle) if condition(middle) else (middle, yes)
     return yes
 
 
@@ -93,10 +97,16 @@ def lowest_of(kind: str, frequencies: np.ndarray, restitution: float) -> np.ndar
 def in_g(
     block: rk.Block, kind: str, duration: float, stands: float, overturns: float, angle: float | None = None
 ) -> float:
-    """Return the acceleration in g at which a pulse begins to overturn a block; one that stands and one that overturns are given."""
+    """Return the acceleration in g at which a pulse begins to overturn a block, between `stands` and `overturns`."""
     frequency = TURNS[kind] / block.time(duration)
 
-    def question(acceleration: float) -> bool:
+    def condition(acceleration: float) -> bool:
         return falls(kind, block.amplitude(acceleration * GRAVITY), frequency, block.restitution, angle)
 
-    return bisected(question, stands, overturns)
+    return bisected(condition, stands, overturns)
+
+
+def outside(value: float, one: float, other: float) -> float:
+    """Return the distance of a value from the interval between two numbers; 0 inside."""
+    low, high = sorted((one, other))
+    return max(low - value, value - high, 0.0)

@@ -47,8 +47,8 @@ def typeset(text: str) -> str:
     '−0.052, within 10⁻⁷, 2.5·10⁵, cycles 1-3, x-2'
     """
 
-    def power(found: re.Match[str]) -> str:
-        digits, exponent = found.groups()
+    def power(match: re.Match[str]) -> str:
+        digits, exponent = match.groups()
         ten = f"10{str(int(exponent)).translate(SUPERSCRIPT)}"
         return ten if digits == "1" else f"{digits}·{ten}"
 
@@ -57,14 +57,14 @@ def typeset(text: str) -> str:
 
 
 class Standing(StrEnum):
-    """Verdict on a claim after the computation."""
+    """Kind of a verdict on a claim."""
 
     CONFIRMED = "confirmed"
     QUALIFIED = "confirmed with qualification"
     MISPRINT = "misprint"
     ERROR = "error in the paper"
     NOT_CONFIRMED = "not confirmed"
-    NOT_JUDGED = "not judged"
+    UNTESTED = "not judged"
 
 
 @frozen
@@ -77,13 +77,13 @@ class Finding:
         Whether the figures support the claim as printed.
     figures : str
         Computed figures.
-    shown : bool
-        For a claim that does not hold: whether the same computation shows the explanation given instead.
+    explained : bool
+        For a claim that does not hold: whether the same computation supports the explanation.
     """
 
     holds: bool
     figures: str
-    shown: bool = False
+    explained: bool = False
 
 
 @frozen
@@ -99,7 +99,7 @@ class Claim:
     compute : callable
         Computation that returns a `Finding`.
     otherwise : Standing
-        Verdict if the claim does not hold as printed and `because` is shown.
+        Verdict if the claim does not hold as printed and the finding supports `because`.
     because : str
         Explanation, or the correct statement.
     cost : float
@@ -123,21 +123,21 @@ class Claim:
         """Source code of the function that tests the claim."""
         return inspect.getsource(self.compute)
 
-    def judged(self) -> Judged:
-        """Run the computation and return the claim with its verdict."""
-        return self.judge(self.compute())
+    def test(self) -> Verdict:
+        """Run the computation and return the verdict."""
+        return self.verdict(self.compute())
 
-    def judge(self, finding: Finding) -> Judged:
-        """Return the claim with the verdict that follows from a finding."""
+    def verdict(self, finding: Finding) -> Verdict:
+        """Return the verdict that follows from a finding."""
         finding = evolve(finding, figures=typeset(finding.figures))
         if finding.holds:
-            return Judged(self, Standing.CONFIRMED, finding)
-        return Judged(self, self.otherwise if finding.shown else Standing.NOT_CONFIRMED, finding)
+            return Verdict(self, Standing.CONFIRMED, finding)
+        return Verdict(self, self.otherwise if finding.explained else Standing.NOT_CONFIRMED, finding)
 
 
 @frozen
-class Judged:
-    """Claim with its finding and its verdict."""
+class Verdict:
+    """Verdict on a claim, with the finding from which it follows."""
 
     claim: Claim
     standing: Standing
@@ -162,20 +162,20 @@ class Chapter(list[Claim]):
         qualified: str = "",
         misprint: str = "",
         error: str = "",
-        not_judged: str = "",
+        untested: str = "",
         cost: float = 0.05,
     ) -> Callable[[Callable[[], Finding]], Callable[[], Finding]]:
         """Register the decorated function as the test of the claim in its docstring.
 
         `qualified`, `misprint` or `error` is the explanation for a claim that does not hold as printed; its name selects
-        the verdict. The explanation counts only if the finding shows it. `not_judged` is the reason why a claim cannot be
-        tested with this package; its finding shows that reason. `cost` is the approximate processor time, s.
+        the verdict. The explanation counts only if the finding supports it. `untested` is the reason why a claim cannot be
+        tested with this package; its finding supports that reason. `cost` is the approximate processor time, s.
         """
         explained = {
             Standing.QUALIFIED: qualified,
             Standing.MISPRINT: misprint,
             Standing.ERROR: error,
-            Standing.NOT_JUDGED: not_judged,
+            Standing.UNTESTED: untested,
         }
         otherwise, because = next(
             ((standing, text) for standing, text in explained.items() if text), (Standing.NOT_CONFIRMED, "")

@@ -1,9 +1,10 @@
-"""Report on a paper as one HTML page and PDF: figures, claims with verdicts, and further results."""
+"""Report on a paper as files: tables, and one HTML page and PDF with figures, claims and further results."""
 
 from __future__ import annotations
 
 import base64
-import inspect
+import csv
+import io
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -15,8 +16,7 @@ from PIL import Image
 
 from rocking.model.files import replacing
 from rocking.model.package import VERSION
-from rocking.papers.report.claim import Chapter, Finding, Judged, Standing
-from rocking.papers.report.table_files import write_table
+from rocking.papers.report.claim import Chapter, Finding, Standing, Verdict, typeset
 
 PAGE, TWIN = "index.html", "index.pdf"
 DOTS_PER_INCH = 200
@@ -45,53 +45,66 @@ class Picture:
 
 
 @frozen
-class Judgement:
-    """Chapter with the verdicts on its claims."""
+class Verdicts:
+    """Verdicts on the claims of a chapter."""
 
     title: str
-    claims: Sequence[Judged]
+    claims: Sequence[Verdict]
 
 
-def pictured(name: str, module: str, file: Path) -> Picture:
-    """Return a figure with its caption, which is the docstring of its module."""
-    title, _, text = inspect.cleandoc(import_module(module).__doc__ or "").partition("\n\n")
-    return Picture(name, title.replace("\n", " "), text, file)
-
-
-def judged(chapters: Iterable[Chapter], findings: Iterable[Finding]) -> list[Judgement]:
+def verdicts(chapters: Iterable[Chapter], findings: Iterable[Finding]) -> list[Verdicts]:
     """Return the verdicts on all claims, from the findings in the order of the claims."""
     following = iter(findings)
     return [
-        Judgement(chapter.title, [claim.judge(next(following)) for claim in chapter]) for chapter in chapters
+        Verdicts(chapter.title, [claim.verdict(next(following)) for claim in chapter]) for chapter in chapters
     ]
 
 
-def counted(judgements: Iterable[Judgement]) -> Mapping[Standing, int]:
+def counted(chapters: Iterable[Verdicts]) -> Mapping[Standing, int]:
     """Return the number of claims with each verdict."""
-    found = Counter(claim.standing for judgement in judgements for claim in judgement.claims)
-    return {standing: found[standing] for standing in Standing}
+    numbers = Counter(claim.standing for chapter in chapters for claim in chapter.claims)
+    return {standing: numbers[standing] for standing in Standing}
 
 
-def summed_up(judgements: Iterable[Judgement], of: str) -> str:
+def summary_line(chapters: Iterable[Verdicts], of: str) -> str:
     """Return the number of claims with each verdict as one line of text."""
-    counts = counted(judgements)
+    counts = counted(chapters)
     listed = ", ".join(f"{standing} ({counts[standing]})" for standing in Standing if counts[standing])
     return f"{sum(counts.values())} claims of {of}: {listed}"
 
 
-def write_claims(folder: Path, judgements: Iterable[Judgement]) -> list[Path]:
+def write_table(folder: Path, name: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> list[Path]:
+    """Write a table as CSV, with plain numbers, and as Markdown, with typeset numbers."""
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows([header, *rows])
+    lines = [
+        header,
+        ["---"] * len(header),
+        *([typeset(text).replace("|", r"\|") for text in row] for row in rows),
+    ]
+    markdown = "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    written = []
+    for suffix, text in ((".csv", stream.getvalue()), (".md", markdown)):
+        path = folder / f"table-{name}{suffix}"
+        with replacing(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+        written.append(path)
+    return written
+
+
+def write_claims(folder: Path, chapters: Iterable[Verdicts]) -> list[Path]:
     """Write the claims and their verdicts as a table."""
     rows = [
         [
-            judgement.title,
+            chapter.title,
             claim.claim.place,
             claim.claim.says,
             claim.finding.figures,
             str(claim.standing),
             claim.because,
         ]
-        for judgement in judgements
-        for claim in judgement.claims
+        for chapter in chapters
+        for claim in chapter.claims
     ]
     return write_table(
         folder, "claims", ["part", "place", "claim", "computed", "verdict", "explanation"], rows
@@ -103,7 +116,7 @@ def write(
     title: str,
     lead: str,
     figures: Sequence[Picture],
-    judgements: Sequence[Judgement],
+    chapters: Sequence[Verdicts],
     beyond: Sequence[Picture],
 ) -> list[Path]:
     """Write the HTML page and, if the libraries of WeasyPrint are available, the same page as PDF."""
@@ -121,9 +134,9 @@ def write(
         title=title,
         lead=lead.format(version=VERSION),
         figures=figures,
-        judgements=judgements,
+        chapters=chapters,
         beyond=beyond,
-        counts=counted(judgements),
+        counts=counted(chapters),
     )
     with replacing(folder / PAGE) as temporary:
         temporary.write_text(page, encoding="utf-8")

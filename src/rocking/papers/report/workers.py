@@ -24,7 +24,7 @@ from attrs import frozen
 from rocking.model.progress import Bar
 from rocking.survey.run_survey import cores
 
-Given = ParamSpec("Given")
+Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
 
 WORTH = 3.0
@@ -66,26 +66,26 @@ class Step:
         return self.name
 
 
-def shared(compute: Callable[Given, Result]) -> Callable[Given, Result]:
+def shared(compute: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
     """Compute a result once for each set of arguments; other processes of the report wait for it and read it."""
 
-    def read_or_compute(*given: Any, **named: Any) -> Any:
+    def read_or_compute(*arguments: Any, **named: Any) -> Any:
         if not FOLDER:
-            return compute(*given, **named)
+            return compute(*arguments, **named)
         import fcntl
 
-        name = f"{compute.__module__}.{compute.__name__}{given}{named}"
+        name = f"{compute.__module__}.{compute.__name__}{arguments}{named}"
         with (FOLDER[0] / hashlib.sha256(name.encode()).hexdigest()).open("a+b") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
             file.seek(0)
             kept = file.read()
-            result = pickle.loads(kept) if kept else compute(*given, **named)
+            result = pickle.loads(kept) if kept else compute(*arguments, **named)
             if not kept:
                 file.write(pickle.dumps(result))
         return result
 
-    found: Any = wraps(compute)(cache(read_or_compute))
-    return found
+    once: Any = wraps(compute)(cache(read_or_compute))
+    return once
 
 
 def carry_out(steps: Sequence[Step], bar: Bar) -> list[Any]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import xarray as xr
 from attrs import frozen
 
 import rocking as rk
@@ -11,6 +12,11 @@ from rocking.papers.pulses_and_earthquakes import runge_kutta
 from rocking.papers.pulses_and_earthquakes.thresholds import GRAVITY
 from rocking.papers.report.workers import shared
 
+if TYPE_CHECKING:
+    import xarray as xr
+
+NO_RECORD = "needs a record that does not come with the package"
+"""Reason why a row is not judged."""
 SIZE, SLENDERNESS = 1.0, 0.25
 """R in m and θcr in rad of the block whose scales are followed."""
 RATIOS = np.linspace(1.0, 6.0, 10_001)
@@ -32,10 +38,10 @@ def synthetic() -> tuple[rk.GroundMotion, ...]:
     return rk.synthetic_ground_motions(4, seed=1, step=0.02)
 
 
-def fallen(found: xr.Dataset) -> np.ndarray:
+def fallen(survey: xr.Dataset) -> np.ndarray:
     """Return whether each run overturned."""
-    code = str(found.outcome.attrs["flag_meanings"]).split().index(rk.Outcome.OVERTURNED)
-    return found.outcome.values == code
+    code = str(survey.outcome.attrs["flag_meanings"]).split().index(rk.Outcome.OVERTURNED)
+    return survey.outcome.values == code
 
 
 def switches(over: np.ndarray) -> int:
@@ -96,10 +102,10 @@ def wrong_verdicts() -> Wrong:
     restitution = 1 - 1.5 * np.sin(COARSE_SLENDERNESS) ** 2
 
     def share(substeps: int, interpolated: bool) -> rk.Share:
-        found = runge_kutta.overturned(
+        fell = runge_kutta.overturned(
             samples, alpha * motions[0].step, restitution, substeps, interpolated=interpolated
         )
-        return rk.Share(int((found != fallen(exact).ravel())[sure].sum()), int(sure.sum()))
+        return rk.Share(int((fell != fallen(exact).ravel())[sure].sum()), int(sure.sum()))
 
     return Wrong(
         *(tuple(share(substeps, interpolated) for substeps in SUBSTEPS) for interpolated in (False, True))
