@@ -39,7 +39,7 @@ async def opened(running):
     while link is None:
         frame = await connection.read_message()
         if isinstance(frame, str):
-            link = re.search(r'"name":"rocking.explorer.page_channel.Link","id":"(p\d+)"', frame)
+            link = re.search(r'"name":"rocking.explorer.session.Link","id":"(p\d+)"', frame)
     return connection, link[1]
 
 

@@ -107,7 +107,7 @@ def test_the_wheel_alone_draws_the_paper(run):
     assert (package / "py.typed").exists()
     assert (package / "records/0111a.smc").exists()
     pages = {path.relative_to(package).as_posix() for path in package.rglob("*.html")}
-    assert {"papers/report/page.html", "plot/zoomable_map.html", "explorer/ground_motion/page.html"} <= pages
+    assert {"papers/report/page.html", "plot/zoomable_map.html", "explorer/ground.html"} <= pages
 
 
 def test_source_distribution_holds_the_backend_and_no_library(tmp_path):

@@ -16,24 +16,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rocking as rk
-from rocking.explorer import (
-    bokeh_figures,
-    figure_data,
-    plane_axes,
-    presets,
-    progressive_map,
-    texts,
-)
-from rocking.explorer.attractor_labels import Orbits
-from rocking.explorer.field_readers import Refused, written
-from rocking.explorer.form_fields import READ, address, changed, from_address, in_metres
-from rocking.explorer.page_channel import message
-from rocking.explorer.progressive_map import AHEAD, START, UNDETERMINED, Picture, Plane, Refinement
-from rocking.explorer.session import Session
-from rocking.explorer.view_state import DEFAULT, POINTS, Span, ViewState, closest, nearby
-from rocking.explorer.worker_pools import Jobs, Workers
+from rocking.explorer import figures, harmonic_maps, harmonic_motion, presets, refinement, texts
+from rocking.explorer.fields import Refused, Span, written
+from rocking.explorer.figures import Axes
+from rocking.explorer.harmonic_maps import Attractors, Basins, Orbits, Responses, colours, counts
+from rocking.explorer.harmonic_page import HarmonicSession
+from rocking.explorer.harmonic_view import DEFAULT, POINTS, HarmonicView, closest, in_metres, nearby
+from rocking.explorer.jobs import Jobs, Workers
+from rocking.explorer.refinement import AHEAD, START, Picture, Refinement
+from rocking.explorer.session import message
 from rocking.model.text import percent
-from rocking.model.verdict import Criterion
+from rocking.model.verdict import Criterion, Kind
 from rocking.plot import style
 from rocking.plot.style import LOOKS, NONE, looks
 from rocking.survey import attractors
@@ -55,7 +48,7 @@ def spans(low, high):
 
 
 SHOWN = st.builds(
-    ViewState,
+    HarmonicView,
     amplitude=inside(0, 1000),
     period=inside(0.01, 6000),
     restitution=inside(0, 1),
@@ -75,26 +68,26 @@ SHOWN = st.builds(
 
 @given(SHOWN)
 def test_address_gives_back_every_digit(shown):
-    again, refused = from_address("?" + address(shown))
+    again, refused = HarmonicView.from_address("?" + shown.address)
     assert refused == {}
     # what is as at the beginning is left out, and a zero has one sign
     assert again == shown
 
 
 @settings(deadline=None)
-@given(st.dictionaries(st.sampled_from([*READ, "version", "x"]), st.text(max_size=30)))
+@given(st.dictionaries(st.sampled_from([*HarmonicView.declared(), "version", "x"]), st.text(max_size=30)))
 def test_any_address_shows_something_that_can_be_shown(typed):
     from urllib.parse import urlencode
 
-    shown, refused = from_address("?" + urlencode(typed))
+    shown, refused = HarmonicView.from_address("?" + urlencode(typed))
     assert rk.simulate(shown.system, shown.start, cycles=1, record="none").cycles <= 1
     assert all(text for text in refused.values())
-    assert from_address(address(shown)) == (shown, {})
+    assert HarmonicView.from_address(shown.address) == (shown, {})
 
 
 @given(st.text(max_size=300))
 def test_any_text_is_an_address(text):
-    assert isinstance(from_address(text)[0], ViewState)
+    assert isinstance(HarmonicView.from_address(text)[0], HarmonicView)
 
 
 PART = st.none() | numbers | st.text(max_size=5) | st.lists(st.text(max_size=5))
@@ -133,7 +126,7 @@ def test_any_message_is_heard_or_refused(text):
 )  # fmt: skip
 def test_field_is_refused_in_one_sentence(typed, field, sentence):
     with pytest.raises(Refused) as refusal:
-        changed(DEFAULT, typed)
+        DEFAULT.changed(typed)
     assert refusal.value.fields == {field: sentence}
 
 
@@ -186,9 +179,9 @@ def test_block_in_metres_stays_in_the_commands(rocking):
 
 
 def test_full_block_is_in_the_link_the_code_and_the_commands(rocking):
-    shown = changed(DEFAULT, {"critical_angle": "0.25"})
+    shown = DEFAULT.changed({"critical_angle": "0.25"})
     assert shown.system == rk.System(rk.Harmonic(2.0, period=1.0), 0.925, critical_angle=0.25)
-    assert "critical_angle=0.25" in address(shown)
+    assert "critical_angle=0.25" in shown.address
     for line in texts.commands(shown).splitlines():
         assert line.count("--critical-angle=0.25") == 1
         code, message, _ = rocking(line.removeprefix("rocking ").replace(":101", ":3"))
@@ -200,32 +193,32 @@ def test_full_block_is_in_the_link_the_code_and_the_commands(rocking):
 
 
 def test_full_block_in_metres_has_the_critical_angle_of_its_size():
-    shown = in_metres(changed(DEFAULT, {"critical_angle": "0.3"}), METRES)
+    shown = in_metres(DEFAULT.changed({"critical_angle": "0.3"}), METRES)
     assert shown.critical_angle == rk.Block(2.0, 0.5).critical_angle
     assert all(line.count("--model full") == 1 for line in texts.commands(shown).splitlines())
     assert in_metres(DEFAULT, METRES).critical_angle is None
-    assert changed(shown, {"critical_angle": "0.245"}) == shown
-    assert changed(shown, {"critical_angle": ""}).system.critical_angle is None
+    assert shown.changed({"critical_angle": "0.245"}) == shown
+    assert shown.changed({"critical_angle": ""}).system.critical_angle is None
     with pytest.raises(Refused) as refusal:
-        changed(shown, {"critical_angle": "0.3"})
+        shown.changed({"critical_angle": "0.3"})
     sentence = "critical angle must be 0.245, that of the block in SI units, or empty; got 0.3"
     assert refusal.value.fields == {"critical_angle": sentence}
-    free = changed(shown, {"critical_angle": "0.3", "height": "", "width": ""})
+    free = shown.changed({"critical_angle": "0.3", "height": "", "width": ""})
     assert (free.block, free.critical_angle) == (None, 0.3)
 
 
 def test_block_in_metres_is_refused_if_its_braces_are_where_it_lies_flat():
-    shown = changed(DEFAULT, {"critical_angle": "0.3", "brace_angle": "4"})
+    shown = DEFAULT.changed({"critical_angle": "0.3", "brace_angle": "4"})
     with pytest.raises(Refused) as refusal:
         in_metres(shown, METRES | {"height": "2", "width": "1.9"})
     assert list(refusal.value.fields) == ["brace_angle"]
 
 
 def test_link_with_one_unfit_field_keeps_the_others():
-    shown, refused = from_address("?version=1&critical_angle=0.3&brace_angle=6&amplitude=5")
+    shown, refused = HarmonicView.from_address("?version=1&critical_angle=0.3&brace_angle=6&amplitude=5")
     assert (shown.amplitude, shown.critical_angle, shown.brace_angle) == (5.0, 0.3, None)
     assert list(refused) == ["brace_angle"]
-    shown, refused = from_address("?version=1&brace_angle=0.5&angle=0.9&amplitude=5")
+    shown, refused = HarmonicView.from_address("?version=1&brace_angle=0.5&angle=0.9&amplitude=5")
     assert (shown.amplitude, shown.brace_angle, shown.angle, list(refused)) == (5.0, 0.5, 0.0, ["angle"])
 
 
@@ -266,7 +259,7 @@ def test_verdict_on_a_block_says_in_si_what_the_units_are():
 )
 def test_deep_views_are_drawn_as_differences_without_loss(middle, width):
     span = Span(middle, middle + width)
-    base = plane_axes.base_of(span)
+    base = figures.base_of(span)
     low, high = span.low - base, span.high - base
     # what the browser adds again are the ends themselves
     assert (base + low, base + high) == (span.low, span.high)
@@ -276,9 +269,7 @@ def test_deep_views_are_drawn_as_differences_without_loss(middle, width):
 
 def test_points_of_a_picture_are_the_middles_of_its_cells():
     across, up = Span(0.2, 3.0), Span(0.0, 16.0)
-    nothing = {"look": np.zeros((5, 5), int), "orbit": np.zeros((5, 5), int)}
-    picture = Picture(nothing, points=5, settled=0, of=0, done=True)
-    drawn = plane_axes.image(picture, plane_axes.Corner(0.0, 0.0), across, up)
+    drawn = Axes(across, up).image(np.zeros((5, 5), np.uint8))
     for begin, length, span in (("x", "w", across), ("y", "h", up)):
         middles = drawn[begin][0] + (np.arange(5) + 0.5) * drawn[length][0] / 5
         np.testing.assert_allclose(middles, np.linspace(span.low, span.high, 5), atol=1e-14)
@@ -289,10 +280,10 @@ def test_stripes_lie_on_undetermined_points_alone():
     looks = np.full((9, 9), undetermined)
     looks[:, :4] = 0
     fields = {"look": looks, "orbit": np.zeros((9, 9), int)}
-    drawn = Picture(fields, points=9, settled=81, of=81, done=True).colours()
+    drawn = colours(Picture(fields, points=9, settled=81, of=81))
     assert set(drawn[:, :4].ravel().tolist()) == {0}
-    assert {bokeh_figures.PALETTE[number] for number in set(drawn[:, 4:].ravel().tolist())} == {
-        bokeh_figures.SHADED[undetermined],
+    assert {harmonic_maps.PALETTE[number] for number in set(drawn[:, 4:].ravel().tolist())} == {
+        harmonic_maps.SHADED[undetermined],
         style.INK,
     }
 
@@ -310,10 +301,10 @@ def alone(coroutine):
         return pool.submit(asyncio.run, coroutine).result()
 
 
-def refined(plane):
+def refined(measure):
     async def run():
         workers = Workers()
-        refinement = Refinement(plane, workers, np.zeros(1, np.int64))
+        refinement = Refinement(measure, workers, np.zeros(1, np.int64))
         pictures = [refinement.coarse()]
         pictures += [picture async for picture in refinement.finer()]
         workers.close()
@@ -324,48 +315,54 @@ def refined(plane):
 
 @pytest.mark.parametrize("block", [{}, {"critical_angle": 0.25}])
 def test_refined_map_is_the_packages_map(block):
-    plane = Plane(
+    measure = Responses(
         ("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925} | block, 33
     )
-    pictures = refined(plane)
+    pictures = refined(measure)
     axes = {"period": np.linspace(0.2, 3, 33), "amplitude": np.linspace(0, 16, 33)}
     found = rk.parametric_map(system_with(restitution=0.925, **block), **axes).dataset
     names = "kind", "response_period", "symmetric"
-    assert (pictures[-1].look == looks(*(found[name].values for name in names))).all()
-    assert [len(picture.look) for picture in (pictures[0], pictures[-1])] == [5, 33]
+    assert (pictures[-1].fields["look"] == looks(*(found[name].values for name in names))).all()
+    assert [picture.side for picture in (pictures[0], pictures[-1])] == [5, 33]
     assert [picture.done for picture in pictures] == [False] * (len(pictures) - 1) + [True]
-    assert pictures[-1].colours().shape == (33, 33)
+    assert colours(pictures[-1]).shape == (33, 33)
 
 
 def test_maps_under_way_show_classified_points_and_neighbours_of_the_others(monkeypatch):
-    plane = Plane(("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33)
-    monkeypatch.setattr(progressive_map, "SHOWN_EVERY", 0.0)
-    monkeypatch.setattr(progressive_map, "FASTER", 1)
-    first, *others, last = refined(plane)
-    sides = [len(picture.look) for picture in others]
+    measure = Responses(
+        ("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33
+    )
+    monkeypatch.setattr(refinement, "SHOWN_EVERY", 0.0)
+    monkeypatch.setattr(refinement, "FASTER", 1)
+    first, *others, last = refined(measure)
+    sides = [picture.side for picture in others]
     assert sides == sorted(sides)
     assert {9, 17, 33} == set(sides)
     for picture in others:
-        side = len(picture.look)
+        side = picture.side
         stride, even = 32 // (side - 1), np.arange(side) // 2 * 2
-        right = picture.look == last.look[::stride, ::stride]
-        right[::2, ::2] |= (picture.look[::2, ::2] == first.look) if stride == 4 else False
+        right = picture.fields["look"] == last.fields["look"][::stride, ::stride]
+        right[::2, ::2] |= (
+            (picture.fields["look"][::2, ::2] == first.fields["look"]) if stride == 4 else False
+        )
         assert picture.settled <= picture.of
         assert right[::2, ::2].all()
-        assert (right | (picture.look == picture.look[np.ix_(even, even)])).all()
+        assert (right | (picture.fields["look"] == picture.fields["look"][np.ix_(even, even)])).all()
 
 
 def test_map_without_valid_points_is_complete_at_once():
     fixed = {"amplitude": 2.0, "period": 1.0, "restitution": 0.9}
-    plane = Plane(("angle", Span(-1.0, 1.0)), ("velocity", Span(-1.0, 1.0)), fixed, 17, reach=-1.0)
-    *_, last = refined(plane)
+    measure = Basins(Span(-1.0, 1.0), Span(-1.0, 1.0), fixed, 17, reach=-1.0)
+    *_, last = refined(measure)
     assert last.done
-    assert (last.look == NONE).all()
+    assert (last.fields["look"] == NONE).all()
 
 
 def pieces(monkeypatch, seconds):
     """Return the numbers of points in the pieces of a refinement, if each point takes ``seconds``."""
-    plane = Plane(("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33)
+    measure = Responses(
+        ("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33
+    )
     sizes, judge = [], Refinement._timed
 
     def timed(refinement, places):
@@ -373,7 +370,7 @@ def pieces(monkeypatch, seconds):
         return judge(refinement, places)[0], seconds * places.size
 
     monkeypatch.setattr(Refinement, "_timed", timed)
-    refined(plane)
+    refined(measure)
     return sizes
 
 
@@ -388,47 +385,47 @@ def test_pieces_have_one_point_where_points_are_dear_and_many_where_they_are_che
 
 def test_coarse_map_calls_undetermined_what_it_cannot_know():
     """Chaos needs 10,000 cycles: what has fewer says that it does not know."""
-    plane = Plane(("period", Span(1.1, 1.2)), ("amplitude", Span(6.95, 7.05)), {"restitution": 0.3}, 9)
+    measure = Responses(("period", Span(1.1, 1.2)), ("amplitude", Span(6.95, 7.05)), {"restitution": 0.3}, 9)
     chaotic = [look.name for look in LOOKS].index("chaotic")
-    first, *_, last = refined(plane)
-    assert (first.fields["kind"] == UNDETERMINED).any()
-    assert not (first.look == chaotic).any()
-    assert (last.look == chaotic).any()
+    first, *_, last = refined(measure)
+    assert (first.fields["kind"] == Kind.UNDETERMINED.code).any()
+    assert not (first.fields["look"] == chaotic).any()
+    assert (last.fields["look"] == chaotic).any()
     # the open points of the coarse map are classified again
     axes = {"period": np.linspace(1.1, 1.2, 9), "amplitude": np.linspace(6.95, 7.05, 9)}
     found = rk.parametric_map(system_with(restitution=0.3), **axes).dataset
     names = "kind", "response_period", "symmetric"
-    assert (last.look == looks(*(found[name].values for name in names))).all()
+    assert (last.fields["look"] == looks(*(found[name].values for name in names))).all()
 
 
 def test_starts_beyond_the_braces_are_no_starts():
     fixed = {"amplitude": 2.0, "period": 1.0, "restitution": 0.9, "brace_angle": 0.5}
-    plane = Plane(("angle", Span(-1.0, 1.0)), ("velocity", Span(-1.0, 1.0)), fixed, 17, reach=0.5)
-    last = refined(plane)[-1]
+    measure = Basins(Span(-1.0, 1.0), Span(-1.0, 1.0), fixed, 17, reach=0.5)
+    last = refined(measure)[-1]
     outside = np.abs(np.linspace(-1, 1, 17)) > 0.5
-    assert (last.look[:, outside] == NONE).all()
-    assert not (last.look[:, ~outside] == NONE).any()
+    assert (last.fields["look"][:, outside] == NONE).all()
+    assert not (last.fields["look"][:, ~outside] == NONE).any()
 
 
 def test_mirror_images_have_shades_of_their_own():
     fixed = {"amplitude": 14.0, "period": 1.35, "restitution": 0.925}
-    plane = Plane(("angle", Span(-0.5, 0.5)), ("velocity", Span(-0.5, 0.5)), fixed, 17, with_attractors=True)
-    *_, last = refined(plane)
+    measure = Attractors(Span(-0.5, 0.5), Span(-0.5, 0.5), fixed, 17)
+    *_, last = refined(measure)
     starts = np.linspace(-0.5, 0.5, 17)
     system = rk.System(rk.Harmonic(14.0, period=1.35), 0.925)
     found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0)
     attractor = found.dataset.attractor.transpose("velocity", "angle").values
-    twins = last.look == ASYMMETRIC
+    twins = last.fields["look"] == ASYMMETRIC
     pairs = set(zip(attractor[twins].tolist(), last.fields["orbit"][twins].tolist(), strict=True))
     assert len(pairs) == len(set(attractor[twins].tolist())) == 2
     assert {number for _, number in pairs} == {0, 1}
-    shades = [set(last.colours()[twins & (last.fields["orbit"] == number)].tolist()) for number in (0, 1)]
+    shades = [set(colours(last)[twins & (last.fields["orbit"] == number)].tolist()) for number in (0, 1)]
     assert [len(shade) for shade in shades] == [1, 1]
-    colours = {bokeh_figures.PALETTE[number] for shade in shades for number in shade}
-    assert len(colours) == 2
-    entries = texts.attractors(last.counts())
+    drawn = {harmonic_maps.PALETTE[number] for shade in shades for number in shade}
+    assert len(drawn) == 2
+    entries = texts.attractors(counts(last))
     assert [each["name"] for each in entries] == [LOOKS[ASYMMETRIC].name, "another orbit", "overturned"]
-    assert {each["colour"] for each in entries[:2]} == colours
+    assert {each["colour"] for each in entries[:2]} == drawn
     assert sorted(each["share"] for each in entries) == sorted(
         percent(share.value) for share in found.fractions
     )
@@ -465,8 +462,8 @@ def test_start_far_beyond_return_is_drawn_as_far_as_doubles_hold():
         "angle": "-1000",
         "cycles": "1",
     }
-    shown = changed(DEFAULT, typed)
-    drawn = figure_data.traces(shown)
+    shown = DEFAULT.changed(typed)
+    drawn = harmonic_motion.traces(shown)
     assert np.isfinite([*drawn.spans["history"], *drawn.spans["portrait"]]).all()
     assert drawn.history["angle"][0] == -1000.0
 
@@ -480,9 +477,9 @@ def test_motion_that_becomes_faster_than_any_start_is_drawn():
         "brace_angle": "1000",
         "first": "100",
     }
-    shown = changed(DEFAULT, typed)
-    assert len(figure_data.traces(shown).history["time"]) > 2
-    section = figure_data.Section(shown)
+    shown = DEFAULT.changed(typed)
+    assert len(harmonic_motion.traces(shown).history["time"]) > 2
+    section = harmonic_motion.Section(shown)
     section.grow(100)
     assert section.ended == "too fast"
 
@@ -498,7 +495,7 @@ def test_motion_that_becomes_faster_than_any_start_is_drawn():
     ],
 )
 def test_section_omits_the_transient_of_a_damped_motion_that_goes_on(typed, label):
-    section = figure_data.Section(changed(DEFAULT, typed))
+    section = harmonic_motion.Section(DEFAULT.changed(typed))
     section.grow(1_000)
     assert section.drawn(None).label == label
 
@@ -514,7 +511,9 @@ def test_legends_have_no_number_and_no_attractor_below_a_hundredth_of_a_percent(
 
 def test_names_of_a_spectrum_do_not_run_into_each_other():
     """Lines at thirds of the forcing's frequency, of much the same height."""
-    names = figure_data.spectrum(ViewState(amplitude=10.103037, period=1.721328, restitution=0.8)).names
+    names = harmonic_motion.spectrum(
+        HarmonicView(amplitude=10.103037, period=1.721328, restitution=0.8)
+    ).names
     places = list(zip(names["frequency"], np.log10(names["density"]), strict=True))
     assert names["name"][:2] == ["f", "f/3"]
     for (across, up), (other_across, other_up) in itertools.combinations(places, 2):
@@ -522,13 +521,13 @@ def test_names_of_a_spectrum_do_not_run_into_each_other():
 
 
 def test_motion_of_too_many_events_has_no_pictures(monkeypatch):
-    monkeypatch.setattr(figure_data, "SOON_HITS", 5.0)
-    shown = changed(DEFAULT, {"amplitude": "2.0078125", "restitution": "0.98", "brace_angle": "0.01"})
-    assert figure_data.crowded(shown)
-    assert figure_data.spectrum(shown).why == figure_data.NO_SPECTRUM
+    monkeypatch.setattr(harmonic_motion, "SOON_HITS", 5.0)
+    shown = DEFAULT.changed({"amplitude": "2.0078125", "restitution": "0.98", "brace_angle": "0.01"})
+    assert harmonic_motion.crowded(shown)
+    assert harmonic_motion.spectrum(shown).why == harmonic_motion.NO_SPECTRUM
     assert (
-        len(figure_data.traces(shown).history["time"])
-        == len(figure_data.diagram(shown, np.zeros(1, np.int64))[0]["angle"])
+        len(harmonic_motion.traces(shown).history["time"])
+        == len(harmonic_motion.diagram(shown, np.zeros(1, np.int64))[0]["angle"])
         == 0
     )
 
@@ -536,10 +535,10 @@ def test_motion_of_too_many_events_has_no_pictures(monkeypatch):
 def test_map_that_is_no_longer_wanted_ends():
     async def run():
         workers, stop = Workers(), np.zeros(1, np.int64)
-        plane = Plane(
+        measure = Responses(
             ("period", Span(0.2, 3.0)), ("amplitude", Span(1.0, 16.0)), {"restitution": 1.0}, POINTS
         )
-        refinement = Refinement(plane, workers, stop)
+        refinement = Refinement(measure, workers, stop)
         refinement.coarse()
         stop[0] = 1
         with pytest.raises(asyncio.CancelledError):
@@ -555,7 +554,7 @@ def test_what_is_under_way_for_one_system_ends_when_another_is_chosen():
 
     async def run():
         stops, workers = {}, Workers()
-        visit = Session(Document(), workers)
+        visit = HarmonicSession(Document(), workers)
         visit.hear(json.dumps({"what": "open", "fields": {}}))
 
         async def endless(name, stop):
@@ -563,11 +562,11 @@ def test_what_is_under_way_for_one_system_ends_when_another_is_chosen():
             await asyncio.Event().wait()
 
         for name in ("response", "section", "basin", "judge", "diagram"):
-            visit.painter.jobs.start(name, partial(endless, name))
+            visit.jobs.start(name, partial(endless, name))
         await asyncio.sleep(0)
         visit.hear(json.dumps({"what": "fields", "fields": {"period": "1.5"}}))
         ended = {name: int(stop[0]) for name, stop in stops.items()}
-        visit.painter.jobs.end_all()
+        visit.jobs.end_all()
         workers.close()
         return ended
 
@@ -608,12 +607,12 @@ def test_diagram_that_is_no_longer_wanted_ends_midway(monkeypatch):
         done.append(len(named[DEFAULT.vary]))
         return rk.orbit_diagram(system, start, **named)
 
-    monkeypatch.setattr(figure_data, "orbit_diagram", piece)
-    monkeypatch.setattr(figure_data, "PIECE_HITS", 5e3)
+    monkeypatch.setattr(harmonic_motion, "orbit_diagram", piece)
+    monkeypatch.setattr(harmonic_motion, "PIECE_HITS", 5e3)
     with pytest.raises(asyncio.CancelledError):
-        figure_data.diagram(DEFAULT, stop)
+        harmonic_motion.diagram(DEFAULT, stop)
     assert len(done) == 1
-    assert done[0] < figure_data.VALUES
+    assert done[0] < harmonic_motion.VALUES
 
 
 def test_diagram_that_is_no_longer_wanted_ends_while_its_cost_is_looked_for(monkeypatch):
@@ -625,9 +624,9 @@ def test_diagram_that_is_no_longer_wanted_ends_while_its_cost_is_looked_for(monk
         looked.append(system)
         return 1.0
 
-    monkeypatch.setattr(figure_data, "hits_per_cycle", hits)
+    monkeypatch.setattr(harmonic_motion, "hits_per_cycle", hits)
     with pytest.raises(asyncio.CancelledError):
-        figure_data.diagram(DEFAULT, stop)
+        harmonic_motion.diagram(DEFAULT, stop)
     assert len(looked) == 1
 
 
@@ -635,21 +634,21 @@ def test_diagram_costs_what_its_dearest_values_cost(monkeypatch):
     """The one selected may be cheap."""
     asked = []
     monkeypatch.setattr(
-        figure_data,
+        harmonic_motion,
         "orbit_diagram",
         lambda *given, **named: asked.append(given) or rk.orbit_diagram(*given, **named),
     )
-    monkeypatch.setattr(figure_data, "SOON_HITS", 5.0)
-    shown = changed(DEFAULT, {"amplitude": "0", "restitution": "0.98", "brace_angle": "0.01"})
-    assert not figure_data.crowded(shown)
-    assert len(figure_data.diagram(shown, np.zeros(1, np.int64))[0]["angle"]) == len(asked) == 0
+    monkeypatch.setattr(harmonic_motion, "SOON_HITS", 5.0)
+    shown = DEFAULT.changed({"amplitude": "0", "restitution": "0.98", "brace_angle": "0.01"})
+    assert not harmonic_motion.crowded(shown)
+    assert len(harmonic_motion.diagram(shown, np.zeros(1, np.int64))[0]["angle"]) == len(asked) == 0
 
 
 def test_pieces_of_a_diagram_are_the_whole(monkeypatch):
     stop = np.zeros(1, np.int64)
-    whole = figure_data.diagram(DEFAULT, stop)[0]
-    monkeypatch.setattr(figure_data, "PIECE_HITS", 5e3)
-    pieces = figure_data.diagram(DEFAULT, stop)[0]
+    whole = harmonic_motion.diagram(DEFAULT, stop)[0]
+    monkeypatch.setattr(harmonic_motion, "PIECE_HITS", 5e3)
+    pieces = harmonic_motion.diagram(DEFAULT, stop)[0]
     assert all((whole[name] == pieces[name]).all() for name in ("value", "angle"))
 
 
@@ -664,12 +663,12 @@ def test_click_selects_a_short_number_nearer_than_the_next_point(low, power, sha
 
 
 def test_curve_of_a_mode_is_dotted_on_the_page_where_the_mode_is_not_admissible():
-    shown = changed(DEFAULT, {"curves": "symmetry-breaking-3,melnikov"})
-    drawn = plane_axes.curves(shown, plane_axes.Corner(0.0, 0.0))
+    shown = DEFAULT.changed({"curves": "symmetry-breaking-3,melnikov"})
+    drawn = harmonic_maps.curves(shown, shown.map_axes)
     assert drawn["dash"] == [
-        plane_axes.DASHES["symmetry-breaking-3"],
-        plane_axes.DOTTED,
-        plane_axes.DASHES["melnikov"],
+        harmonic_maps.DASHES["symmetry-breaking-3"],
+        harmonic_maps.DOTTED,
+        harmonic_maps.DASHES["melnikov"],
     ]
     for periods, heights, holds in zip(drawn["xs"][:2], drawn["ys"][:2], (True, False), strict=True):
         inner = np.flatnonzero(np.isfinite(heights))[1:-1]
@@ -679,8 +678,8 @@ def test_curve_of_a_mode_is_dotted_on_the_page_where_the_mode_is_not_admissible(
 
 @pytest.mark.parametrize("block", [{"brace_angle": "1"}, {"critical_angle": "0.25"}])
 def test_curves_of_a_slender_block_without_braces_are_not_drawn_over_the_map_of_another(block):
-    shown = changed(DEFAULT, {"curves": "melnikov"} | block)
-    assert plane_axes.curves(shown, plane_axes.Corner(0.0, 0.0))["xs"] == []
+    shown = DEFAULT.changed({"curves": "melnikov"} | block)
+    assert harmonic_maps.curves(shown, shown.map_axes)["xs"] == []
 
 
 KINDS = {
@@ -706,7 +705,7 @@ def test_case_of_the_gallery_is_what_it_says(case):
 
 @CASES
 def test_case_of_the_gallery_has_an_address_and_lines_of_python(case):
-    assert from_address(address(case.shown)) == (case.shown, {})
+    assert HarmonicView.from_address(case.shown.address) == (case.shown, {})
     compile(texts.python(case.shown), case.name, "exec")
 
 

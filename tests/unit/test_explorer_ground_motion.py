@@ -19,35 +19,37 @@ from hypothesis import strategies as st
 
 import record_files as write
 import rocking as rk
-from rocking.explorer.field_readers import Refused
-from rocking.explorer.ground_motion import renderer
-from rocking.explorer.ground_motion.block_motion import block_motion, margin_in_words
-from rocking.explorer.ground_motion.ground import Ground, ground_of, open_file, read_file, thinned
-from rocking.explorer.ground_motion.map_file import netcdf
-from rocking.explorer.ground_motion.session import GroundSession
-from rocking.explorer.ground_motion.size_map import (
+from rocking.explorer import ground_page
+from rocking.explorer.fields import Refused, Span
+from rocking.explorer.ground_block import block_motion, margin_in_words
+from rocking.explorer.ground_maps import (
     OVERTURNS,
     POINTS,
     ROCKS,
     SHADES,
     STANDS,
-    SizePlane,
-    SizeRefinement,
+    Endings,
+    colours,
+    corner,
+    netcdf,
+    shares,
 )
-from rocking.explorer.ground_motion.view import (
+from rocking.explorer.ground_page import GroundSession
+from rocking.explorer.ground_view import (
     DEFAULT,
     SCALES,
     SIZES,
     SLENDERNESS,
     SOURCES,
+    Ground,
     GroundView,
-    address,
-    at_point,
-    changed,
-    from_address,
+    ground_of,
+    open_file,
+    read_file,
+    thinned,
 )
-from rocking.explorer.view_state import Span
-from rocking.explorer.worker_pools import Workers
+from rocking.explorer.jobs import Workers
+from rocking.explorer.refinement import Refinement
 from rocking.model.forcing import KINDS
 from rocking.model.validation import TooManyEvents
 from rocking.model.verdict import Outcome
@@ -57,7 +59,8 @@ from rocking.survey.ending_measures import BlockEndings
 G = 9.80665
 CODE = tuple(Outcome).index(Outcome.OVERTURNED)
 SHORT = rk.GroundMotion([0.0, 4.0, -6.0, 5.0, -2.0, 0.0], step=0.25, name="short")
-PLANE = SizePlane(Span(0.3, 3.0), Span(5.0, 40.0))
+RANGES = Span(0.3, 3.0), Span(5.0, 40.0)
+MEASURE = Endings(*RANGES, BlockEndings(SHORT, 1.0, "slender"))
 
 
 def spans(low, high):
@@ -67,7 +70,7 @@ def spans(low, high):
 
 SHOWN = st.builds(
     GroundView,
-    source=st.sampled_from(SOURCES),
+    source=st.sampled_from([*SOURCES]),
     kind=st.sampled_from(KINDS),
     amplitude=st.floats(1e-3, 20),
     duration=st.floats(0.01, 60),
@@ -99,7 +102,7 @@ def workers():
 @given(SHOWN)
 @settings(max_examples=60, deadline=None)
 def test_link_gives_the_view_back(shown):
-    assert from_address("?" + address(shown)) == (shown, {})
+    assert GroundView.from_address("?" + shown.address) == (shown, {})
 
 
 @pytest.mark.parametrize(
@@ -124,15 +127,17 @@ def test_link_gives_the_view_back(shown):
 )
 def test_invalid_field_is_refused_by_its_name(typed, field):
     with pytest.raises(Refused) as caught:
-        changed(DEFAULT, typed)
+        DEFAULT.changed(typed)
     assert list(caught.value.fields) == [field]
 
 
 def test_invalid_link_keeps_the_default_of_its_field_and_says_so():
-    shown, refused = from_address("?version=1&scale=2&height=tall")
+    shown, refused = GroundView.from_address("?version=1&scale=2&height=tall")
     assert (shown.scale, shown.height, list(refused)) == (2.0, DEFAULT.height, ["height"])
-    assert from_address("?version=7")[1].keys() == {"page"}
-    assert from_address("?" + "a" * 3000)[1].keys() == {"page"}
+    shown, refused = GroundView.from_address("?version=1&scale=2&width=50")
+    assert (shown.scale, shown.width, list(refused)) == (2.0, DEFAULT.width, ["width"])
+    assert GroundView.from_address("?version=7")[1].keys() == {"page"}
+    assert GroundView.from_address("?" + "a" * 3000)[1].keys() == {"page"}
 
 
 @given(spans(*SIZES), spans(*SLENDERNESS), st.floats(0, 1), st.floats(0, 1))
@@ -141,7 +146,7 @@ def test_click_selects_a_block_nearer_to_it_than_any_other_point_of_the_map(size
     shown = attrs.evolve(DEFAULT, sizes=sizes, angles=angles)
     size = sizes.low * (sizes.high / sizes.low) ** across
     degrees = angles.low + up * angles.width
-    block = changed(shown, at_point(shown, size, degrees)).block
+    block = shown.changed(shown.at_point(size, degrees)).block
     assert abs(math.log(block.radius / size)) <= 0.5 * math.log(sizes.high / sizes.low) / (POINTS - 1)
     assert abs(block.degrees(1.0) - degrees) <= 0.5 * angles.width / (POINTS - 1)
 
@@ -223,10 +228,10 @@ def test_reading_ends_at_its_limit_and_the_page_answers_meanwhile(workers, monke
             await reading
         return turns
 
-    monkeypatch.setattr("rocking.explorer.ground_motion.ground.READING", 0.5)
+    monkeypatch.setattr("rocking.explorer.ground_view.READING", 0.5)
     begun = time.process_time()
     assert run(answers()) > 5
-    monkeypatch.setattr("rocking.explorer.ground_motion.ground.READING", 60.0)
+    monkeypatch.setattr("rocking.explorer.ground_view.READING", 60.0)
     short = "\n".join(write.peer(np.sin(np.arange(40)))).encode()
     assert len(run(workers.read(partial(read_file, "town.AT2", short, DEFAULT)))) == 1
     assert (
@@ -236,7 +241,7 @@ def test_reading_ends_at_its_limit_and_the_page_answers_meanwhile(workers, monke
 
 def test_reading_ends_at_its_limit_of_memory_with_one_sentence(monkeypatch):
     monkeypatch.setattr(reading_process, "MAX_MEMORY", 500 << 20)
-    monkeypatch.setattr("rocking.explorer.ground_motion.ground.READING", 60.0)
+    monkeypatch.setattr("rocking.explorer.ground_view.READING", 60.0)
     with pytest.raises(
         rk.RecordError, match=r"^reading takes more than 500 MB of memory: give a shorter file$"
     ):
@@ -284,7 +289,8 @@ def test_remark_tells_a_vertical_channel_and_a_drift():
 
 def pictures(base, scale, workers, model="slender"):
     async def refine():
-        refinement = SizeRefinement(PLANE, BlockEndings(base, scale, model), workers, np.zeros(1, np.int64))
+        measure = Endings(*RANGES, BlockEndings(base, scale, model))
+        refinement = Refinement(measure, workers, np.zeros(1, np.int64))
         found = [refinement.coarse()]
         async for picture in refinement.finer():
             found.append(picture)  # noqa: PERF401 (a list comprehension would not be clearer)
@@ -296,10 +302,12 @@ def pictures(base, scale, workers, model="slender"):
 @pytest.mark.parametrize("model", ["slender", "full"])
 def test_every_point_of_the_map_is_that_of_the_rocking_spectrum(workers, model):
     found = pictures(SHORT, 1.3, workers, model)
-    assert [picture.side for picture in found if picture.settled] == [39, 77, 153, 305]
+    sides = [picture.side for picture in found]
+    assert (sides[0], sides[-1], sides) == (39, POINTS, sorted(sides))
+    assert {picture.side for picture in found if picture.whole} <= {39, 77, 153, POINTS}
     assert [picture.done for picture in found] == [False] * (len(found) - 1) + [True]
     places = np.arange(0, POINTS, 19)
-    sizes, angles = PLANE.sizes_of(POINTS)[places], np.radians(PLANE.angles_of(POINTS)[places])
+    sizes, angles = MEASURE.sizes[places], np.radians(MEASURE.angles[places])
     spectrum = rk.rocking_spectrum(SHORT, size=sizes, slenderness=angles, levels=1.3, model=model).dataset
     for name, values in found[-1].fields.items():
         expected = spectrum[name].transpose("slenderness", "size").values
@@ -307,8 +315,10 @@ def test_every_point_of_the_map_is_that_of_the_rocking_spectrum(workers, model):
     assert 0.05 < np.mean(found[-1].fields["outcome"] == CODE) < 0.95
 
 
-def test_coarse_points_stay_in_the_finer_maps(workers):
-    found = [picture for picture in pictures(SHORT, 1.3, workers) if picture.settled]
+def test_coarse_points_stay_in_the_finer_maps(workers, monkeypatch):
+    monkeypatch.setattr("rocking.explorer.refinement.SHOWN_EVERY", 0.0)
+    found = [picture for picture in pictures(SHORT, 1.3, workers) if picture.whole]
+    assert [picture.side for picture in found] == [39, 77, 153, POINTS]
     for coarse, fine in itertools.pairwise(found):
         assert (fine.fields["peak"][::2, ::2] == coarse.fields["peak"]).all()
 
@@ -331,11 +341,12 @@ def test_pulse_in_the_map_is_that_of_one_simulation(kind, model):
 @pytest.mark.parametrize("side", [39, POINTS])
 def test_blocks_lie_at_the_centres_of_their_cells_in_the_image(side):
     """The horizontal axis is logarithmic, so that all cells have the same ratio of their edges."""
-    corner = {name: values[0] for name, values in PLANE.corner(side).items()}
+    image = {name: values[0] for name, values in corner(*RANGES, side).items()}
     centres = (np.arange(side) + 0.5) / side
-    across = corner["x"] * ((corner["x"] + corner["w"]) / corner["x"]) ** centres
-    assert across == pytest.approx(PLANE.sizes_of(side), rel=1e-12)
-    assert corner["y"] + corner["h"] * centres == pytest.approx(PLANE.angles_of(side), rel=1e-12)
+    across = image["x"] * ((image["x"] + image["w"]) / image["x"]) ** centres
+    stride = (POINTS - 1) // (side - 1)
+    assert across == pytest.approx(MEASURE.sizes[::stride], rel=1e-12)
+    assert image["y"] + image["h"] * centres == pytest.approx(MEASURE.angles[::stride], rel=1e-12)
 
 
 def test_stopped_map_stops():
@@ -344,27 +355,27 @@ def test_stopped_map_stops():
 
 def test_colours_are_those_of_the_outcomes_and_the_shares_add_up(workers):
     picture = pictures(SHORT, 0.45, workers)[0]
-    colours, peak = picture.colours(), picture.fields["peak"]
+    drawn, peak = colours(picture), picture.fields["peak"]
     overturned = picture.fields["outcome"] == CODE
     assert overturned.any()
-    assert ((colours == OVERTURNS) == overturned).all()
+    assert ((drawn == OVERTURNS) == overturned).all()
     assert (peak == 0.0).any()
-    assert ((colours == STANDS) == (peak == 0.0)).all()
+    assert ((drawn == STANDS) == (peak == 0.0)).all()
     rocks = ~overturned & (peak > 0.0)
-    assert (colours[rocks] == ROCKS + np.minimum((peak[rocks] * SHADES).astype(int), SHADES - 1)).all()
-    assert sum(picture.shares()) == pytest.approx(1.0)
-    assert picture.shares()[2] == np.mean(overturned)
+    assert (drawn[rocks] == ROCKS + np.minimum((peak[rocks] * SHADES).astype(int), SHADES - 1)).all()
+    assert sum(shares(picture)) == pytest.approx(1.0)
+    assert shares(picture)[2] == np.mean(overturned)
 
 
 def test_saved_map_has_the_blocks_and_the_results(workers):
     picture = pictures(SHORT, 1.0, workers)[-1]
-    data = xr.open_dataset(io.BytesIO(netcdf(PLANE, picture, "short", DEFAULT)), engine="h5netcdf")
+    data = xr.open_dataset(io.BytesIO(netcdf(MEASURE, picture, {"view": DEFAULT.address})), engine="h5netcdf")
     assert data.outcome.dims == ("slenderness", "size")
     assert (data.peak.values == picture.fields["peak"]).all()
-    corner = data.isel(slenderness=-1, size=0)
-    block = rk.Block(float(corner.height), float(corner.width))
+    end = data.isel(slenderness=-1, size=0)
+    block = rk.Block(float(end.height), float(end.width))
     assert (block.radius, block.degrees(1.0)) == pytest.approx((0.3, 40.0))
-    assert from_address(data.attrs["view"]) == (DEFAULT, {})
+    assert GroundView.from_address(data.attrs["view"]) == (DEFAULT, {})
 
 
 # ---- one block
@@ -434,8 +445,8 @@ def test_invalid_message_or_file_leaves_the_view_and_says_so(workers):
         refused.append(session.link.refused)
         session.hear('{"n": 2, "what": "open", "fields": {"address": "?source=file"}}')
         refused.append(session.link.refused)
-        shown = session.shown
-        session.renderer.jobs.end_all()
+        shown = session.view
+        session.jobs.end_all()
         return refused, shown
 
     refused, shown = run(visit())
@@ -448,14 +459,14 @@ def test_motion_with_too_many_events_is_not_shown_as_the_one_before(workers, mon
     def crowded(*_):
         raise TooManyEvents("more than 3 events")
 
-    async def at_once(change):
-        change()
+    async def at_once(change, *arguments):
+        change(*arguments)
 
     async def visit():
         session = GroundSession(Document(), workers)
-        monkeypatch.setattr(session.renderer, "_draw", at_once)
-        monkeypatch.setattr(renderer, "block_motion", crowded)
-        await session.renderer.draw_motion(DEFAULT, np.zeros(1, np.int64))
+        monkeypatch.setattr(session, "change", at_once)
+        monkeypatch.setattr(ground_page, "block_motion", crowded)
+        await session.draw_motion(DEFAULT, np.zeros(1, np.int64))
         return session.link
 
     link = run(visit())

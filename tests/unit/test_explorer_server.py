@@ -17,10 +17,10 @@ from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
 from rocking.explorer import server
-from rocking.explorer.ground_motion.session import GroundSession
+from rocking.explorer.ground_page import GroundSession
+from rocking.explorer.harmonic_page import HarmonicSession
+from rocking.explorer.jobs import Workers
 from rocking.explorer.server import MAX_MESSAGE, is_ours, local_server
-from rocking.explorer.session import Session
-from rocking.explorer.worker_pools import Workers
 
 SECONDS = 60.0
 
@@ -242,7 +242,7 @@ def test_message_longer_than_the_largest_file_is_refused_by_its_length():
     run(visit())
 
 
-@pytest.mark.parametrize("kind", [Session, GroundSession])
+@pytest.mark.parametrize("kind", [HarmonicSession, GroundSession])
 def test_request_is_heard_in_the_event_loop_whichever_thread_brings_it(kind):
     """Bokeh brings it on a thread of its own from version 3.10 on, where no job can start."""
 
@@ -256,7 +256,7 @@ def test_request_is_heard_in_the_event_loop_whichever_thread_brings_it(kind):
         connection = await connected(made.port, f"localhost:{made.port}", f"http://localhost:{made.port}")
         await connection.read_message()
         [visit], [session] = visits, made.get_sessions("/")
-        jobs = (visit.painter if kind is Session else visit.renderer).jobs
+        jobs = visit.jobs
         text = json.dumps({"what": "open", "fields": {"address": "version=1"}})
         await session.with_document_locked(lambda: asyncio.to_thread(setattr, visit.link, "asked", text))
         while not jobs.busy:

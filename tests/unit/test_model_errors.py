@@ -13,7 +13,7 @@ import xarray as xr
 
 import rocking as rk
 from rocking.cli.options import InvalidInput
-from rocking.explorer.field_readers import Refused
+from rocking.explorer.fields import Refused
 from rocking.model.files import WriteError
 from rocking.model.text import shown, shown_path
 from rocking.model.validation import (

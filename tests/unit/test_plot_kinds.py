@@ -11,8 +11,8 @@ from attrs import evolve
 from matplotlib.colors import to_hex, to_rgb
 
 import rocking as rk
-from rocking.explorer import texts
-from rocking.explorer.ground_motion.size_map import SizePicture
+from rocking.explorer import ground_maps, texts
+from rocking.explorer.refinement import Picture
 from rocking.plot import palette
 from rocking.plot.style import COLOURS, LOOKS, looks
 
@@ -80,7 +80,7 @@ def test_no_line_of_data_has_the_colour_of_an_outcome():
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_colours_stand_out_from_both_pages_of_the_explorer(theme):
-    rules = files("rocking.explorer").joinpath("page.css").read_text(encoding="utf-8")
+    rules = files("rocking.explorer").joinpath("common.css").read_text(encoding="utf-8")
     (paper,) = {
         dark: each
         for dark, each in zip(("light", "dark"), re.findall(r"--paper: (#\w{6})", rules), strict=True)
@@ -132,7 +132,7 @@ def drawn_legends():
     for entry in texts.legend(np.arange(1, len(LOOKS) + 1)):
         yield "explorer", entry["name"], entry["colour"].lower()
     still = {name: np.zeros((2, 2)) for name in ("outcome", "certified", "peak", "margin")}
-    for name, entry in SizePicture(still, settled=True, done=True).legend().items():
+    for name, entry in ground_maps.legend(Picture(still, 2, 4, 4)).items():
         if isinstance(entry, dict):
             told = {"stands": "no motion", "rocks": "stands"}.get(name, name)
             yield "ground motions", told, entry.get("colour", entry.get("colours", [""])[0]).lower()

@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from rocking.cli.options import InvalidInput
+from rocking.model.package import require_extra
 
 if TYPE_CHECKING:
     from tornado.ioloop import IOLoop
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
 
 def explore(port: int, no_browser: bool) -> None:
     """Serve the explorer until Ctrl-C, and open its page in the browser."""
-    from rocking.explorer import serve
+    require_extra("explorer")
+    from rocking.explorer.server import serve
 
     try:
         server = serve(port)

@@ -7,7 +7,8 @@ from typing import Any
 import attrs
 from attrs import field, frozen
 
-from rocking.explorer.view_state import DEFAULT, Span, ViewState
+from rocking.explorer.fields import Span
+from rocking.explorer.harmonic_view import DEFAULT, HarmonicView
 
 
 @frozen
@@ -21,7 +22,7 @@ class Case:
     fields: dict[str, Any] = field(factory=dict)
 
     @property
-    def shown(self) -> ViewState:
+    def shown(self) -> HarmonicView:
         """View of the case."""
         return attrs.evolve(DEFAULT, **self.fields)
 
@@ -145,3 +146,4 @@ CASES = (
     ),
 )
 BY_NAME = {case.name: case for case in CASES}
+GROUPS = {group: [case for case in CASES if case.group == group] for group in (PAPER, BEYOND)}

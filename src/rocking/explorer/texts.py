@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from rocking.explorer.bokeh_figures import SHADED
-from rocking.explorer.field_readers import written
-from rocking.explorer.progressive_map import Picture
-from rocking.explorer.view_state import DEFAULT, ViewState
+from rocking.explorer.fields import written
+from rocking.explorer.harmonic_maps import SHADED
+from rocking.explorer.harmonic_view import DEFAULT, HarmonicView
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import Harmonic
@@ -127,18 +126,7 @@ def _entry(name: str, colour: str, look: style.Look, share: float) -> dict[str, 
     }
 
 
-def progress(picture: Picture) -> dict[str, Any]:
-    """Return the progress of the map, as text and as a fraction."""
-    side = len(picture.look)
-    share = (
-        1.0
-        if picture.done
-        else 0.25 * (side / picture.points) ** 2 * (1.0 + 3.0 * picture.settled / max(picture.of, 1))
-    )
-    return {"text": f"{side} × {side} points", "share": share, "side": side, "done": picture.done}
-
-
-def python(shown: ViewState) -> str:
+def python(shown: HarmonicView) -> str:
     """Return Python code that reproduces the view."""
     lines = ["import numpy as np", "import rocking as rk", ""]
     phase = "" if shown.phase == 0.0 else f", phase={shown.phase!r}"
@@ -172,7 +160,7 @@ def _axis(span: Any) -> str:
     return f"np.linspace({span.low!r}, {span.high!r}, 101)"
 
 
-def commands(shown: ViewState) -> str:
+def commands(shown: HarmonicView) -> str:
     """Return commands for verdict, motion and map of the view; with a block in SI units."""
     usual = ("phase", "angle", "velocity", "brace_angle", "brace_restitution")
     named = [name for name in usual if name in shown.fixed and getattr(shown, name) != getattr(DEFAULT, name)]
@@ -192,7 +180,7 @@ def commands(shown: ViewState) -> str:
     )
 
 
-def _normalised(shown: ViewState) -> tuple[str, str]:
+def _normalised(shown: HarmonicView) -> tuple[str, str]:
     """Return the options of the selected forcing and of the map, normalised."""
     return (
         f"--amplitude {written(shown.amplitude)} --period {written(shown.period)}",
@@ -200,7 +188,7 @@ def _normalised(shown: ViewState) -> tuple[str, str]:
     )
 
 
-def _in_metres(shown: ViewState, block: Block) -> tuple[str, str]:
+def _in_metres(shown: HarmonicView, block: Block) -> tuple[str, str]:
     """Return the options of the selected forcing and of the map, in SI units.
 
     The map is over the period in s, because even steps of the frequency are not even steps of the period.

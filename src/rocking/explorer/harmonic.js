@@ -1,27 +1,9 @@
+const page = {
+  figures: ["map", "basin", "history", "portrait", "section", "spectrum", "diagram"],
+  maps: ["map", "basin"],
+  messages: { shown: show, verdict: judge, legend, progress, basin: attractors, refused: refuse },
+};
 const still = new Set(); // maps whose ranges the page itself is setting
-
-function begin(doc) {
-  const model = name => doc.get_model_by_name(name);
-  link = model("link");
-  for (const name of ["map", "basin", "history", "portrait", "section", "spectrum", "diagram"]) models[name] = model(name);
-  link.properties.drawn.change.connect(() => draw(link.drawn));
-  listen("shown", show);
-  listen("verdict", judge);
-  listen("legend", legend);
-  listen("progress", progress);
-  listen("basin", attractors);
-  listen("refused", refuse);
-  for (const name of ["map", "basin"]) {
-    for (const range of [models[name].x_range, models[name].y_range]) {
-      range.properties.start.change.connect(() => moved(name));
-      range.properties.end.change.connect(() => moved(name));
-    }
-  }
-  history.replaceState({ n: depth() }, "");
-  theme(document.documentElement.dataset.theme);
-  ask("open", { address: location.search }, false);
-  document.body.dataset.ready = "yes";
-}
 
 // ---- the view and its address
 
@@ -46,7 +28,7 @@ function show(told) {
   for (const box of all("#curves input")) box.checked = on.has(box.name);
   find("curves").disabled = Boolean(told.fields.brace_angle || told.fields.critical_angle);
   remember(told, before);
-  for (const name of ["map", "basin"]) steady(name);
+  page.maps.forEach(steady);
   find("depth").textContent = told.planes.map.deepest ? "Zoom limit of double precision" : "";
   find("vary").value = told.fields.vary;
   const [low, high, value] = told.slider;
@@ -103,7 +85,7 @@ function zoom(name, by, right = 0, up = 0) {
 const whole = { map: { periods: "0.2:3", amplitudes: "0:16" }, basin: { angles: "-1.2:1.2", velocities: "-1.2:1.2" } };
 for (const button of all("[data-zoom]")) button.onclick = () => zoom(button.dataset.zoom, Number(button.dataset.by));
 for (const button of all("[data-whole]")) button.onclick = () => ask("fields", whole[button.dataset.whole]);
-for (const name of ["map", "basin"]) {
+for (const name of page.maps) {
   const keys = {
     "+": () => zoom(name, 2), "=": () => zoom(name, 2), "-": () => zoom(name, 0.5), "0": () => ask("fields", whole[name]),
     ArrowLeft: () => zoom(name, 1, -0.1), ArrowRight: () => zoom(name, 1, 0.1), ArrowDown: () => zoom(name, 1, 0, -0.1), ArrowUp: () => zoom(name, 1, 0, 0.1),
@@ -137,11 +119,8 @@ function readout(across, up) {
 
 function entries(legend) {
   return legend.map(each => {
-    const row = document.createElement("li"), swatch = document.createElement("i"), share = document.createElement("small");
     const stripes = each.hatch ? `repeating-linear-gradient(135deg, ${each.hatch} 0 2px, transparent 2px 5px), ` : "";
-    swatch.style.background = stripes + each.colour;
-    share.textContent = each.share && `(${each.share})`;
-    row.append(swatch, each.name, share);
+    const row = entry(each.name, stripes + each.colour, each.share);
     row.classList.toggle("none", !each.share);
     return row;
   });
@@ -159,13 +138,6 @@ function attractors({ legend }) {
   find("basin").setAttribute("aria-label", `Basins of attraction: ${shares(legend)}. Arrow keys move the view, plus and minus zoom, 0 resets it. Enter Θ₀ and Θ′₀ to select an initial state.`);
 }
 
-function progress(told) {
-  find("progress").textContent = told.done ? "" : `Computing the map: ${told.text}`;
-  bar.style.opacity = told.done ? 0 : 1;
-  bar.style.width = `${100 * told.share}%`;
-  document.body.dataset.map = told.done ? "done" : String(told.side);
-}
-
 // ---- controls
 
 for (const input of all("#fields input")) {
@@ -181,24 +153,15 @@ for (const input of all("#fields input")) {
     if (event.key === "Escape") { delete input.dataset.typing; input.value = shown.fields[input.name]; refuse({ fields: {} }); }
   });
 }
-find("fields").addEventListener("submit", event => event.preventDefault());
 for (const box of all("#curves input")) box.onchange = () => ask("fields", { curves: all("#curves input:checked").map(each => each.name).join(",") });
 find("vary").onchange = event => ask("fields", { vary: event.target.value });
 
-let sliding = 0, pending = false;
 const slid = push => {
   const [low, high] = shown.slider, value = low + (high - low) * find("slider").value / 1000;
   // the fewest digits that distinguish two steps
   const short = Number(value.toFixed(Math.max(Math.ceil(-Math.log10((high - low) / 1000)), 0)));
   ask("fields", { [shown.fields.vary]: String(Math.min(Math.max(short, low), high)) }, push);
 };
-find("slider").addEventListener("input", () => {
-  if (pending) return;
-  sliding = 1;
-  pending = true;
-  setTimeout(() => { pending = false; slid(false); }, 60);
-});
-find("slider").addEventListener("change", () => { sliding = 0; slid(true); });
 
 for (const button of all("[data-case]")) button.onclick = () => { find("gallery").close(); ask("case", { name: button.dataset.case }); };
 find("metres").addEventListener("submit", event => {
@@ -213,8 +176,7 @@ function table(name) {
   if (name === "map") return grid(name, "period", "amplitude");
   if (name === "basin") return grid(name, "angle", "velocity");
   if (name === "section") return answers.section;
-  const renderer = models[name].renderers[0];
-  return Object.fromEntries(parts(renderer.data_source.data));
+  return columns(name);
 }
 
 function grid(name, across, up) {
@@ -236,18 +198,15 @@ function grid(name, across, up) {
 // ---- the block
 
 function scene() {
-  const data = models.history.renderers[0].data_source.data, column = key => data instanceof Map ? data.get(key) : data[key];
-  const time = column("time"), angle = column("angle"), fields = shown.fields;
+  const { time, angle } = columns("history"), fields = shown.fields;
   const height = Number(fields.height) || 4, width = Number(fields.width) || height * Math.tan(Number(fields.critical_angle) || Math.atan(0.25));
   const amplitude = Number(fields.amplitude), period = Number(fields.period), frequency = 2 * Math.PI / period;
   const critical = Math.atan2(width, height), radius = Math.hypot(height, width) / 2;
-  let peak = 0;
-  for (const value of angle) peak = Math.max(peak, Math.abs(value));
   // displacement amplitude a_x/ω² in the units of height and width: A g θcr/(Ω α)², α² = 3g/4R
   const base = amplitude * critical * (4 * radius / 3) / frequency ** 2;
   film = { time, angle, height, width, critical,
     displacement: at => -base * Math.cos(frequency * at + Number(fields.phase)), speed: Math.max(period / 1.2, (time[time.length - 1] - time[0]) / 40),
-    angles: Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12), moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) };
+    angles: magnified(angle, critical), moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) };
   clock = time[0] ?? 0;
   const told = [];
   if (film.angles > 1.05) told.push(`angle × ${film.angles.toPrecision(2)}`);
@@ -255,5 +214,3 @@ function scene() {
   find("scene-told").textContent = told.join(", ") || "true to scale";
   frame();
 }
-
-theme(preferred());

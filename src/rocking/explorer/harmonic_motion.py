@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
-from rocking.explorer.bokeh_figures import no_image
-from rocking.explorer.view_state import Span, ViewState
+from rocking.explorer.figures import no_image
+from rocking.explorer.harmonic_maps import PERIOD
+from rocking.explorer.harmonic_view import HarmonicView
 from rocking.model.quantity import ANGLE
 from rocking.model.system import State, System
 from rocking.model.validation import TooManyEvents
@@ -32,8 +33,6 @@ PROBED = 3
 """Cycles of the run that estimates the cost of a cycle."""
 SOON_HITS, LATER_HITS = 3e5, 3e6
 """Maximum number of impacts per figure: for the figures that a click waits for, and for the others."""
-PERIOD = 64
-"""Largest response period that is sought, in forcing cycles."""
 SETTLING, RECORD = 128, 256
 """Cycles discarded before the spectrum, and cycles used for it."""
 HIGHEST, DECADES, NAMES = 3.05, 10.0, 6
@@ -75,12 +74,12 @@ def hits_per_cycle(system: System, start: State) -> float:
     return max(hits, 1.0)
 
 
-def crowded(shown: ViewState) -> bool:
+def crowded(shown: HarmonicView) -> bool:
     """Return whether a cycle has too many impacts for a figure."""
     return math.isinf(hits_per_cycle(shown.system, shown.start))
 
 
-def affordable(shown: ViewState, cycles: int, hits: float = SOON_HITS) -> int:
+def affordable(shown: HarmonicView, cycles: int, hits: float = SOON_HITS) -> int:
     """Reduce a number of cycles to those that one figure may take; at least 1."""
     return int(max(min(cycles, hits / hits_per_cycle(shown.system, shown.start)), 1))
 
@@ -117,12 +116,12 @@ class Drawn:
     label: str
 
 
-def verdict(shown: ViewState) -> Verdict:
+def verdict(shown: HarmonicView) -> Verdict:
     """Classify the response."""
     return classify(shown.system, shown.start, affordable(shown, SOON), PERIOD)
 
 
-def traces(shown: ViewState) -> Traces:
+def traces(shown: HarmonicView) -> Traces:
     """Simulate the cycles shown."""
     try:
         if crowded(shown):
@@ -151,7 +150,7 @@ def traces(shown: ViewState) -> Traces:
     )
 
 
-def _motion(shown: ViewState) -> tuple[Motion, float]:
+def _motion(shown: HarmonicView) -> tuple[Motion, float]:
     """Simulate the cycles shown; the cycles before them are not recorded.
 
     Returns
@@ -186,7 +185,7 @@ def _around(values: np.ndarray) -> tuple[float, float]:
     return low - room, high + room
 
 
-def spectrum(shown: ViewState) -> Spectrum:
+def spectrum(shown: HarmonicView) -> Spectrum:
     """Return the power spectral density after the transient, over multiples of the forcing frequency."""
     try:
         if crowded(shown):
@@ -218,7 +217,7 @@ def spectrum(shown: ViewState) -> Spectrum:
 class Section:
     """Poincaré section that grows by continuing the motion."""
 
-    def __init__(self, shown: ViewState) -> None:
+    def __init__(self, shown: HarmonicView) -> None:
         self.shown, self.last = shown, shown.start
         self.points = np.empty((0, 2))
         self.ended = ""
@@ -281,12 +280,12 @@ def _cells(points: np.ndarray, spans: Ranges) -> np.ndarray:
     return rows * CELLS + columns
 
 
-def diagram(shown: ViewState, stop: np.ndarray) -> tuple[Columns, Ranges]:
+def diagram(shown: HarmonicView, stop: np.ndarray) -> tuple[Columns, Ranges]:
     """Return the points of the orbit diagram along an axis of the map, and the ranges of its axes.
 
     Every run starts from the initial state. CancelledError: if another thread has set `stop[0]`.
     """
-    span: Span = shown.varied
+    span = shown.varied
     values = np.linspace(span.low, span.high, VALUES)
     start: State = shown.start
     nothing: Columns = {"value": [], "angle": []}
@@ -318,6 +317,6 @@ def diagram(shown: ViewState, stop: np.ndarray) -> tuple[Columns, Ranges]:
     return columns, (span.low, span.high, *_around(columns["angle"]))
 
 
-def judge_longer(shown: ViewState) -> Verdict:
+def judge_longer(shown: HarmonicView) -> Verdict:
     """Classify again, with up to `LATER` cycles, a response that is undetermined after `SOON` cycles."""
     return classify(shown.system, shown.start, affordable(shown, LATER, LATER_HITS), PERIOD)

@@ -6,7 +6,7 @@ import asyncio
 import logging
 from collections.abc import Awaitable, Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -28,17 +28,17 @@ class Workers:
         self.patient = ThreadPoolExecutor(self.count, "patient")
         self.reader = ThreadPoolExecutor(1, "reader")
 
-    async def soon(self, work: Callable[[], Value]) -> Value:
+    async def soon(self, work: Callable[..., Value], *arguments: Any) -> Value:
         """Run the work of a selection and return its result."""
-        return await asyncio.get_running_loop().run_in_executor(self.quick, work)
+        return await asyncio.get_running_loop().run_in_executor(self.quick, work, *arguments)
 
-    async def later(self, work: Callable[[], Value]) -> Value:
+    async def later(self, work: Callable[..., Value], *arguments: Any) -> Value:
         """Run a batch of a refinement and return its result."""
-        return await asyncio.get_running_loop().run_in_executor(self.patient, work)
+        return await asyncio.get_running_loop().run_in_executor(self.patient, work, *arguments)
 
-    async def read(self, work: Callable[[], Value]) -> Value:
+    async def read(self, work: Callable[..., Value], *arguments: Any) -> Value:
         """Read a file, one at a time, and return its contents."""
-        return await asyncio.get_running_loop().run_in_executor(self.reader, work)
+        return await asyncio.get_running_loop().run_in_executor(self.reader, work, *arguments)
 
     def close(self) -> None:
         """Shut down the threads after their current work."""
@@ -52,17 +52,17 @@ class Jobs:
     def __init__(self) -> None:
         self._jobs: dict[str, tuple[asyncio.Task[None], np.ndarray]] = {}
 
-    def start(self, name: str, work: Callable[[np.ndarray], Awaitable[None]]) -> None:
-        """Start `work(stop)`. Cancellation sets `stop[0]`, which compiled code checks."""
+    def start(self, name: str, work: Callable[..., Awaitable[None]], *arguments: Any) -> None:
+        """Start `work(*arguments, stop)`. Cancellation sets `stop[0]`, which compiled code checks."""
         self.end(name)
         stop = np.zeros(1, np.int64)
-        task = asyncio.ensure_future(work(stop))
+        task = asyncio.ensure_future(work(*arguments, stop))
         self._jobs[name] = task, stop
         task.add_done_callback(lambda done: self._ended(name, done))
 
-    def end(self, name: str) -> None:
-        """Cancel the job of this name, if it is running."""
-        if name in self._jobs:
+    def end(self, *names: str) -> None:
+        """Cancel the jobs of these names that are running."""
+        for name in self._jobs.keys() & names:
             task, stop = self._jobs.pop(name)
             stop[0] = 1
             task.cancel()
@@ -74,8 +74,7 @@ class Jobs:
 
     def end_all(self) -> None:
         """Cancel all jobs."""
-        for name in tuple(self._jobs):
-            self.end(name)
+        self.end(*self._jobs)
 
     @property
     def busy(self) -> bool:

@@ -1,24 +1,8 @@
-// ---- start
-
-function begin(doc) {
-  const model = name => doc.get_model_by_name(name);
-  link = model("link");
-  for (const name of ["map", "history", "base"]) models[name] = model(name);
-  link.properties.drawn.change.connect(() => draw(link.drawn));
-  link.properties.saved.change.connect(() => keep(link.saved));
-  listen("shown", show);
-  listen("verdict", verdict);
-  listen("legend", legend);
-  listen("refused", refused);
-  for (const range of [models.map.x_range, models.map.y_range]) {
-    range.properties.start.change.connect(moved);
-    range.properties.end.change.connect(moved);
-  }
-  history.replaceState({ n: depth() }, "");
-  theme(document.documentElement.dataset.theme);
-  ask("open", { address: location.search }, false);
-  document.body.dataset.ready = "yes";
-}
+const page = {
+  figures: ["map", "history", "base"],
+  maps: ["map"],
+  messages: { shown: show, verdict, legend, progress, refused },
+};
 
 // ---- the view
 
@@ -70,7 +54,6 @@ for (const field of all("#fields input:not([type]), #fields select")) {
     ask("fields", { [field.name]: field.value });
   });
 }
-find("fields").addEventListener("submit", event => event.preventDefault());
 
 // ---- files stay between this page and the server on the same computer
 
@@ -96,19 +79,11 @@ for (const type of ["dragover", "dragleave", "drop"]) {
 // ---- the scale
 
 const ENDS = [0.1, 20]; // of the slider; the field takes more
-let sliding = 0, pending = false;
 const slot = scale => 1000 * Math.log(scale / ENDS[0]) / Math.log(ENDS[1] / ENDS[0]);
 function slid(push) {
   const scale = rounded(ENDS[0] * (ENDS[1] / ENDS[0]) ** (find("slider").value / 1000), 3);
   ask("fields", { scale }, push);
 }
-find("slider").addEventListener("input", () => {
-  if (pending) return;
-  sliding = 1;
-  pending = true;
-  setTimeout(() => { pending = false; slid(false); }, 80);
-});
-find("slider").addEventListener("change", () => { sliding = 0; slid(true); });
 
 // ---- the map: the browser zooms and pans, the server computes
 
@@ -156,16 +131,6 @@ function readout(across, up) {
 
 // ---- verdict and legend
 
-function rows(facts) {
-  return facts.map(([name, value]) => {
-    const row = document.createElement("div"), term = document.createElement("dt"), definition = document.createElement("dd");
-    term.textContent = name;
-    definition.textContent = value;
-    row.append(term, definition);
-    return row;
-  });
-}
-
 function verdict(told) {
   judge({ ...told, evidence: "" });
   find("evidence").replaceChildren(...[told.margin, told.certified, ...told.validity].map((sentence, n) => {
@@ -177,14 +142,6 @@ function verdict(told) {
 }
 
 function legend(told) {
-  const entry = (name, background, share, ramp) => {
-    const row = document.createElement("li"), swatch = document.createElement("i"), part = document.createElement("small");
-    swatch.style.background = background;
-    if (ramp) swatch.className = "ramp";
-    part.textContent = `(${share})`;
-    row.append(swatch, name, part);
-    return row;
-  };
   find("legend").replaceChildren(
     entry("stands still", told.stands.colour, told.stands.share),
     entry("rocks and stands, largest |θ|/θcr 0 to 1", `linear-gradient(90deg, ${told.rocks.colours.join(", ")})`, told.rocks.share, true),
@@ -192,20 +149,13 @@ function legend(told) {
   );
   if (told.undecided) find("legend").append(Object.assign(document.createElement("li"), { textContent: `not certified: ${told.undecided}` }));
   find("map").setAttribute("aria-label", `Map of outcomes over size and critical angle: stands still ${told.stands.share}, rocks and stands ${told.rocks.share}, overturns ${told.overturns.share}. Enter height and width to select a block.`);
-  const share = (told.side / 305) ** 2;
-  find("progress").textContent = told.done ? "" : `Computing the map: ${told.side} × ${told.side} points`;
-  bar.style.opacity = told.done ? 0 : 1;
-  bar.style.width = `${100 * share}%`;
-  document.body.dataset.map = told.done ? "done" : String(told.side);
 }
 
 // ---- the animation, seen from the base
 
 function scene() {
-  const data = models.history.renderers[0].data_source.data, column = key => (data instanceof Map ? data.get(key) : data[key]);
-  const time = column("time"), degrees = column("angle"), { height, width, critical } = shown.block;
-  const angle = Array.from(degrees, value => value * Math.PI / 180 / critical), peak = Math.max(...angle.map(Math.abs));
-  const angles = Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12);
+  const { time, angle: degrees } = columns("history"), { height, width, critical } = shown.block;
+  const angle = Array.from(degrees, value => value * Math.PI / 180 / critical), angles = magnified(angle, critical);
   film = { time, angle, height, width, critical, angles, moves: 1, displacement: () => 0, speed: 1 };
   clock = Math.min(clock, time[time.length - 1] ?? 0);
   find("scene-told").textContent = angles > 1.05 ? `angle × ${angles.toPrecision(2)}` : "true to scale";
@@ -216,7 +166,7 @@ function scene() {
 
 // Columns of a figure; undefined if it is not computed yet.
 function table(name) {
-  if (name !== "map") return Object.fromEntries(parts(models[name].renderers[0].data_source.data));
+  if (name !== "map") return columns(name);
   if (!answers.map) return;
   const side = Math.round(Math.sqrt(answers.map.outcome.length)), points = Array.from(answers.map.outcome, (_, at) => block(at, side));
   const names = { size_m: "size", critical_angle_deg: "angle", height_m: "height", width_m: "width", outcome: "outcome", peak: "peak", margin: "margin", certified: "certified" };
@@ -224,11 +174,3 @@ function table(name) {
 }
 
 find("netcdf").onclick = () => ask("save", {});
-
-function keep(saved) {
-  if (!saved) return;
-  const { data } = Object.fromEntries(parts(saved));
-  save("map", new Blob([data], { type: "application/x-netcdf" }), "nc");
-}
-
-theme(preferred());

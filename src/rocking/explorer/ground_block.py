@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
-from rocking.explorer.ground_motion.ground import Ground, thinned
-from rocking.explorer.ground_motion.size_map import ANGLES, OVERTURNED, STILL
-from rocking.explorer.ground_motion.view import GroundView
+from rocking.explorer.ground_maps import ANGLES, FALLEN, STILL
+from rocking.explorer.ground_view import Ground, GroundView, thinned
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.verdict import Outcome
@@ -85,7 +84,7 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
     overturned, moves = motion.outcome == Outcome.OVERTURNED, motion.peak > 0.0
     kind, colour = "stands still", STILL
     if overturned:
-        kind, colour = "overturns", OVERTURNED
+        kind, colour = "overturns", FALLEN
     elif moves:
         kind, colour = "rocks and stands", ANGLES[min(int(motion.peak * len(ANGLES)), len(ANGLES) - 1)]
     lift = block.acceleration(motion.system.lift_off) / GRAVITY

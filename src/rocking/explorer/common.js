@@ -1,4 +1,4 @@
-// Parts of every page of the explorer; the script of a page follows them.
+// Parts of every page of the explorer. The script of a page follows them: it declares `page`, its figures, maps and messages.
 "use strict";
 const given = JSON.parse(document.getElementById("given").textContent);
 const find = id => document.getElementById(id);
@@ -15,6 +15,24 @@ function listen(name, act) {
   const heard = () => { if (link[name]) act(JSON.parse(link[name])); };
   link.properties[name].change.connect(heard);
   heard();
+}
+
+function begin(doc) {
+  link = doc.get_model_by_name("link");
+  for (const name of page.figures) models[name] = doc.get_model_by_name(name);
+  link.properties.drawn.change.connect(() => draw(link.drawn));
+  link.properties.saved.change.connect(() => keep(link.saved));
+  for (const [name, act] of Object.entries(page.messages)) listen(name, act);
+  for (const name of page.maps) {
+    for (const range of [models[name].x_range, models[name].y_range]) {
+      range.properties.start.change.connect(() => moved(name));
+      range.properties.end.change.connect(() => moved(name));
+    }
+  }
+  history.replaceState({ n: depth() }, "");
+  theme(document.documentElement.dataset.theme);
+  ask("open", { address: location.search }, false);
+  document.body.dataset.ready = "yes";
 }
 
 const waiting = setInterval(() => {
@@ -122,17 +140,38 @@ function judge(told) {
 function write(told) {
   find("kind").textContent = told.kind;
   find("verdict").querySelector("i").style.background = told.colour;
-  find("facts").replaceChildren(...told.facts.map(([name, value]) => {
+  find("facts").replaceChildren(...rows(told.facts));
+  find("evidence").textContent = told.evidence;
+}
+
+function rows(facts) {
+  return facts.map(([name, value]) => {
     const row = document.createElement("div"), term = document.createElement("dt"), definition = document.createElement("dd");
     term.textContent = name;
     definition.textContent = value;
     row.append(term, definition);
     return row;
-  }));
-  find("evidence").textContent = told.evidence;
+  });
+}
+
+// Row of a legend: the background of its swatch, and its share of the area, which may be empty.
+function entry(name, background, share, ramp = false) {
+  const row = document.createElement("li"), swatch = document.createElement("i"), part = document.createElement("small");
+  swatch.style.background = background;
+  swatch.classList.toggle("ramp", ramp);
+  part.textContent = share && `(${share})`;
+  row.append(swatch, name, part);
+  return row;
 }
 
 const bar = document.querySelector("#bar i");
+
+function progress(told) {
+  find("progress").textContent = told.done ? "" : `Computing the map: ${told.text}`;
+  bar.style.opacity = told.done ? 0 : 1;
+  bar.style.width = `${100 * told.share}%`;
+  document.body.dataset.map = told.done ? "done" : String(told.side);
+}
 
 function pardon(input) {
   if (!input.hasAttribute("aria-invalid")) return;
@@ -166,6 +205,17 @@ function say(text) {
 
 // ---- controls
 
+find("fields").addEventListener("submit", event => event.preventDefault());
+
+let sliding = 0, pending = false; // the slider moves; a request of it is due
+find("slider").addEventListener("input", () => {
+  if (pending) return;
+  sliding = 1;
+  pending = true;
+  setTimeout(() => { pending = false; slid(false); }, 60);
+});
+find("slider").addEventListener("change", () => { sliding = 0; slid(true); });
+
 for (const button of all("[data-opens]")) button.onclick = () => find(button.dataset.opens).showModal();
 
 for (const button of all("[data-copy]")) button.onclick = async () => {
@@ -176,18 +226,21 @@ for (const button of all("[data-copy]")) button.onclick = async () => {
 
 // ---- files
 
+// Columns of the first part of a figure.
+const columns = name => Object.fromEntries(parts(models[name].renderers[0].data_source.data));
+
 // Lines of a table, given by its columns.
-function lines(columns) {
-  const names = Object.keys(columns), quote = value => (typeof value === "string" ? `"${value.replaceAll('"', '""')}"` : value);
-  const rows = Array.from(columns[names[0]], (_, n) => names.map(key => quote(columns[key][n])).join(","));
+function lines(table) {
+  const names = Object.keys(table), quote = value => (typeof value === "string" ? `"${value.replaceAll('"', '""')}"` : value);
+  const rows = Array.from(table[names[0]], (_, n) => names.map(key => quote(table[key][n])).join(","));
   return [names.join(","), ...rows, ""].join("\n");
 }
 
 for (const button of all("[data-save]")) button.onclick = async () => {
   const name = find("which").value, kind = button.dataset.save;
   if (kind !== "csv") return save(name, await Bokeh.index.find_one(models[name]).export(kind, true).to_blob(), kind);
-  const columns = table(name);
-  if (columns) save(name, new Blob([lines(columns)], { type: "text/csv" }), kind);
+  const found = table(name);
+  if (found) save(name, new Blob([lines(found)], { type: "text/csv" }), kind);
   else say("The figure is not computed yet: save it when it is.");
 };
 
@@ -197,6 +250,12 @@ function save(name, blob, suffix) {
   anchor.download = `rocking-${name}.${suffix}`;
   anchor.click();
   setTimeout(() => URL.revokeObjectURL(anchor.href), 5000);
+}
+
+function keep(saved) {
+  if (!saved) return;
+  const { data } = Object.fromEntries(parts(saved));
+  save("map", new Blob([data], { type: "application/x-netcdf" }), "nc");
 }
 
 // ---- dark and light
@@ -227,6 +286,13 @@ find("theme").onclick = () => {
 
 let film = null, clock = 0, last = 0;
 const inks = {}; // read once per theme, because reading a style in a frame forces a recalculation of all styles
+
+// Factor that makes a small angle visible, in the units of the critical angle.
+function magnified(angle, critical) {
+  let peak = 0;
+  for (const value of angle) peak = Math.max(peak, Math.abs(value));
+  return Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12);
+}
 
 function now() {
   const { time, angle } = film;
@@ -285,3 +351,4 @@ find("play").onclick = () => { playing = !playing; told(); };
 told();
 new ResizeObserver(frame).observe(find("block"));
 const preferred = () => (localStorage.getItem("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light"));
+theme(preferred());

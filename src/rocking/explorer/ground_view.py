@@ -1,21 +1,44 @@
-"""Base motions of the page: records, synthetic ground motions, pulses, and files that are read from memory."""
+"""View of the page of ground motions: its fields, and its base motion."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
-from attrs import define, field
+from attrs import define, field, frozen
 
-from rocking.explorer.ground_motion.view import GroundView
+from rocking.explorer.fields import Span, View, axis, count, entry, number, optional, word, written
+from rocking.explorer.ground_maps import POINTS
+from rocking.model import quantity as quantities
+from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
-from rocking.model.forcing import Pulse
-from rocking.model.ground_motion import GroundMotion, vertical_sentence
+from rocking.model.forcing import KINDS, Pulse
+from rocking.model.ground_motion import STEPS, GroundMotion, vertical_sentence
+from rocking.model.system import MODELS
+from rocking.model.validation import Refusal
 from rocking.records.read import example_ground_motion, read_apart
 from rocking.records.synthetic import synthetic_ground_motions
 
+SOURCES = {
+    "example": "Loma Prieta 1989 (example)",
+    "synthetic-1": "Synthetic 1",
+    "synthetic-2": "Synthetic 2",
+    "synthetic-3": "Synthetic 3",
+    "pulse": "Pulse",
+    "file": "File …",
+}
+"""Names of base motions, and what the page calls them."""
+UNITS = ("", "m/s²", "cm/s²", "mm/s²", "g", "gal")
+SCALES = (0.01, 100.0)
+SIZES = (0.1, 100.0)
+"""Range of half the diagonal of the map, in m."""
+SLENDERNESS = (0.5, 54.0)
+"""Range of the critical angle of the map, in degrees; up to 54.7° Housner's restitution is positive."""
+NARROWEST = 1.001
+"""Smallest ratio of the ends of a range, so that the points of a map differ clearly."""
 SEED = 1
 MAX_FILE = 50_000_000
 """Largest file, in bytes."""
@@ -25,6 +48,92 @@ MAX_DRAWN = 4_000
 """Largest number of points of a drawn line."""
 PULSE_POINTS = 4_001
 """Points at which a pulse is drawn and integrated; the corners of all forms of straight lines are among them."""
+
+
+def distinct(span: Span) -> bool:
+    """Return whether the ends of a range of the map differ clearly."""
+    return span.high >= NARROWEST * span.low
+
+
+ENDS = "LOW clearly below HIGH"
+
+
+@frozen
+class GroundView(View):
+    """View of a session: base motion, its scale, one block, and the ranges of the map.
+
+    Attributes
+    ----------
+    source : str
+        One of `SOURCES`.
+    kind, amplitude, duration : str and float
+        Form of the pulse, its amplitude in g and its duration in s.
+    units, step : str, float or None
+        Unit and time step, in s, of a file that does not state them.
+    channel : int
+        Channel of the file, counted from 1.
+    scale : float
+        Factor of the base motion.
+    height, width : float
+        Block, in m.
+    model : str
+        Equation of motion: "slender" or "full".
+    sizes, angles : Span
+        Ranges of the map: half the diagonal R in m, and the critical angle in degrees.
+    reading : int
+        Number of the file in its session; not a field.
+    """
+
+    LINKED: ClassVar[tuple[str, ...]] = ("source", "scale", "height", "width")
+
+    source: str = entry("example", word(*SOURCES))
+    kind: str = entry("one-sine", word(*KINDS))
+    amplitude: float = entry(0.5, number(1e-3, 20.0))
+    duration: float = entry(1.0, number(0.01, 60.0))
+    units: str = entry("", word(*UNITS))
+    step: float | None = entry(None, optional(number(*STEPS)))
+    channel: int = entry(1, count(1, 10_000))
+    scale: float = entry(5.0, number(*SCALES))
+    height: float = entry(2.0, number(*quantities.SIZES))
+    width: float = entry(0.5, number(*quantities.SIZES))
+    model: str = entry("slender", word(*MODELS))
+    sizes: Span = axis(Span(0.2, 10.0), *SIZES, distinct, ENDS)
+    angles: Span = axis(Span(3.0, 30.0), *SLENDERNESS, distinct, ENDS)
+    reading: int = 0
+
+    @property
+    def block(self) -> Block:
+        """Selected block: a uniform rectangle with Housner's restitution."""
+        return Block(self.height, self.width)
+
+    @property
+    def shaking(self) -> tuple[Any, ...]:
+        """Fields that decide the base motion, without its scale."""
+        chosen = {
+            "pulse": (self.kind, self.amplitude, self.duration),
+            "file": (self.reading, self.units, self.step, self.channel),
+        }
+        return (self.source, *chosen.get(self.source, ()))
+
+    def checked(self) -> GroundView:
+        """Return the view; raise Refused if its block has no restitution of Housner."""
+        try:
+            Block(self.height, self.width)
+        except Refusal as error:
+            raise self.refused(error) from None
+        return self
+
+    def at_point(self, size: float, degrees: float) -> dict[str, str]:
+        """Return height and width, as text, of the block at a point of the map, with digits finer than the points."""
+        size = min(max(size, self.sizes.low), self.sizes.high)
+        angle = math.radians(min(max(degrees, self.angles.low), self.angles.high))
+        steps = math.log(self.sizes.high / self.sizes.low), self.angles.width / self.angles.high
+        digits = max(math.ceil(-math.log10(min(steps) / (POINTS - 1))) + 1, 4)
+        sides = {"height": 2 * size * math.cos(angle), "width": 2 * size * math.sin(angle)}
+        return {name: written(float(f"{side:.{digits}g}")) for name, side in sides.items()}
+
+
+DEFAULT = GroundView()
 
 
 @define(eq=False, slots=False)

@@ -1,0 +1,217 @@
+"""Page of ground motions: a record or pulse, blocks of many sizes under it, and the motion of one of them."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from typing import Any
+
+import attrs
+import numpy as np
+from bokeh.document import Document
+
+from rocking.explorer import figures, ground_maps
+from rocking.explorer.fields import Refused
+from rocking.explorer.ground_block import BlockMotion, block_motion, no_motion
+from rocking.explorer.ground_maps import Endings
+from rocking.explorer.ground_view import (
+    DEFAULT,
+    SCALES,
+    SIZES,
+    SLENDERNESS,
+    SOURCES,
+    UNITS,
+    Ground,
+    GroundView,
+    ground_of,
+    open_file,
+    read_file,
+)
+from rocking.explorer.jobs import Workers
+from rocking.explorer.page import Page
+from rocking.explorer.refinement import Picture, Refinement
+from rocking.explorer.session import Job, Session
+from rocking.model.forcing import KINDS
+from rocking.model.validation import TooManyEvents
+from rocking.survey.ending_measures import BlockEndings
+
+LOST = "the link shows a file, which is not part of the link: choose the file again"
+UNFINISHED = "the map is not complete: save it when it is"
+SHAKEN = ("shaking", "scale", "model")
+
+
+class GroundSession(Session):
+    """Session of the page, and the file that it shows."""
+
+    VIEW = GroundView
+
+    def __init__(self, document: Document, workers: Workers) -> None:
+        self.ground = ground_of(DEFAULT, ())
+        self.finest: tuple[Endings, Picture] | None = None
+        self.file: tuple[str, bytes] | None = None
+        self.pending: GroundView | None = None  # view of the file, until it is read
+        self.channels: tuple[Ground, ...] = ()
+        super().__init__(document, workers)
+        receive = self.in_turn(self.receive)
+        self.link.on_change("file", lambda _name, _before, given: receive(given))
+
+    # figures and requests
+
+    def figures(self) -> tuple[Any, ...]:
+        """Make the figures, of which the map can be clicked."""
+        self.map, history = figures.plane_of_blocks(ground_maps.PALETTE), figures.block_history()
+        self._place_map(DEFAULT)
+        self.map.x_range.bounds, self.map.y_range.bounds = SIZES, SLENDERNESS
+        self.select(self.map, self._block_at)
+        return self.map, history, figures.base(history)
+
+    def _block_at(self, size: float, degrees: float) -> dict[str, str]:
+        return self.view.at_point(size, degrees)
+
+    def answer(self, what: str, typed: dict[str, str]) -> tuple[Any, dict[str, str]]:
+        """Return the requested view, None if it follows later; a request of this page is the file of the map."""
+        if what == "save":
+            self.jobs.start("save", self.save_map, self.view)
+            return None, {}
+        if what == "fields" and {"units", "step"} & typed.keys() and self.file is not None:
+            self._start_reading((self.pending or self.view).changed(typed | {"source": "file"}))
+            return None, {}
+        new, refused = super().answer(what, typed)
+        if new.source != "file" or self._has_read(new):
+            return attrs.evolve(new, reading=self.view.reading), refused
+        if what == "fields":
+            raise Refused({"file": "choose a file"})
+        return attrs.evolve(new, source=DEFAULT.source), refused | {"file": LOST}
+
+    def _has_read(self, new: GroundView) -> bool:
+        return bool(self.channels) and (new.units, new.step) == (self.view.units, self.view.step)
+
+    # files
+
+    def receive(self, given: Any) -> None:
+        """Read a file that the page sends; its bytes stay in this session until the next file."""
+        if given is None:
+            return
+        self.link.file = None  # type: ignore[assignment]  # the type hint of the property lacks values
+        try:
+            self.file = open_file(given)
+        except ValueError as error:
+            self.link.refuse(file=str(error))
+            return
+        self._start_reading(attrs.evolve(self.view, source="file", units="", step=None, channel=1))
+
+    def _start_reading(self, new: GroundView) -> None:
+        self.pending = new
+        self.jobs.start("read", self._read, new)
+
+    async def _read(self, new: GroundView, stop: np.ndarray) -> None:
+        """Read the file for a view, and show it; an error keeps the view."""
+        assert self.file is not None
+        try:
+            channels = await self.workers.read(read_file, *self.file, new)
+        except (ValueError, OSError) as error:
+            await self.change(self._refuse_file, str(error))
+        except Exception:
+            logging.getLogger(__name__).exception("a file could not be read")
+            await self.change(self._refuse_file, "the file could not be read")
+        else:
+            new = attrs.evolve(new, channel=min(new.channel, len(channels)))
+            await self.workers.read(ground_of(new, channels).words, new.scale)  # long for many samples
+            await self.change(self._accept, new, channels)
+
+    def _refuse_file(self, sentence: str) -> None:
+        self.link.refuse(file=sentence)
+
+    def _accept(self, new: GroundView, channels: tuple[Ground, ...]) -> None:
+        self.channels, self.pending = channels, None
+        self.link.refuse()
+        self.show(attrs.evolve(new, reading=self.view.reading + 1), push=True)
+
+    # the view
+
+    def place(self, changed: Callable[..., bool]) -> None:
+        """Take the base motion, set the ranges of the map and mark the selected block."""
+        if changed("shaking"):
+            self.ground = ground_of(self.view, self.channels)
+        self._place_map(self.view)
+        block = self.view.block
+        self.link.draw(map={"point": {"x": [block.radius], "y": [block.degrees(1.0)]}})
+
+    def _place_map(self, view: GroundView) -> None:
+        for range_, span in ((self.map.x_range, view.sizes), (self.map.y_range, view.angles)):
+            range_.update(start=span.low, end=span.high)
+
+    def description(self) -> dict[str, Any]:
+        """Return the ranges of map and slider, the base motion and the block."""
+        view = self.view
+        return {
+            "sizes": [view.sizes.low, view.sizes.high],
+            "angles": [view.angles.low, view.angles.high],
+            "scales": SCALES,
+            "ground": self.ground.words(view.scale),
+            "channels": [each.name for each in self.channels],
+            "block": {"height": view.height, "width": view.width, "critical": view.block.critical_angle},
+        }
+
+    # the map
+
+    async def refine_map(self, view: GroundView, stop: np.ndarray) -> None:
+        """Compute and draw the map, from coarse to fine."""
+        self.finest = None
+        endings = await self.workers.soon(BlockEndings, self.ground.base, view.scale, view.model)
+        measure = Endings(view.sizes, view.angles, endings)
+
+        def draw(picture: Picture) -> None:
+            corner = ground_maps.corner(view.sizes, view.angles, picture.side)
+            drawn: dict[str, Any] = {"image": {"image": [ground_maps.colours(picture)], **corner}}
+            self.link.draw(map=drawn | ({"answers": ground_maps.answers(picture)} if picture.whole else {}))
+            self.link.send("legend", ground_maps.legend(picture))
+            self.link.send("progress", picture.progress())
+            if picture.done:
+                self.finest = measure, picture
+
+        await self.refine(Refinement(measure, self.workers, stop), draw)
+
+    async def save_map(self, view: GroundView, stop: np.ndarray) -> None:
+        """Send the finished map as a netCDF file."""
+        if self.finest is None:
+            await self.change(lambda: self.link.refuse(page=UNFINISHED))
+            return
+        name = self.ground.words(view.scale)["name"]
+        described = {"base_motion": name, "level": view.scale, "model": view.model, "view": view.address}
+        await self.change(
+            self.link.save, await self.workers.soon(ground_maps.netcdf, *self.finest, described)
+        )
+
+    # one block
+
+    async def draw_motion(self, view: GroundView, stop: np.ndarray) -> None:
+        """Draw the motion of the selected block and tell its verdict."""
+        try:
+            motion = await self.workers.soon(block_motion, view, self.ground)
+        except TooManyEvents as error:
+            motion = no_motion(view, self.ground, str(error))
+        await self.change(self._draw_motion, view, motion)
+
+    def _draw_motion(self, view: GroundView, motion: BlockMotion) -> None:
+        critical = view.block.degrees(1.0)
+        lines = {"above": critical, "below": -critical}
+        self.link.draw(
+            history={"ranges": motion.spans["history"], "line": motion.angle, **lines},
+            base={"ranges": motion.spans["base"], "line": motion.base},
+        )
+        self.link.send("verdict", motion.words)
+
+    JOBS = (
+        Job("map", refine_map, (*SHAKEN, "sizes", "angles"), ("map",)),
+        Job("motion", draw_motion, (*SHAKEN, "height", "width"), ("verdict",)),
+    )
+
+
+PAGE = Page(
+    "ground",
+    "rocking explorer: ground motion",
+    GroundSession,
+    styles=("common.css", "ground.css"),
+    variables={"sources": SOURCES, "kinds": KINDS, "units": [unit for unit in UNITS if unit]},
+)

@@ -1,0 +1,256 @@
+"""View of the page of harmonic motion: its fields, and a block in SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import ClassVar
+
+import attrs
+from attrs import asdict, evolve, frozen
+
+from rocking.explorer.fields import (
+    Refused,
+    Span,
+    View,
+    axis,
+    count,
+    entry,
+    number,
+    optional,
+    quantity,
+    read_fields,
+    word,
+    words,
+)
+from rocking.explorer.figures import Axes
+from rocking.model import quantity as quantities
+from rocking.model.block import Block
+from rocking.model.system import NO_BRACES, State, System, check_below_flat, check_start, system_of
+from rocking.model.validation import Refusal
+from rocking.plot import theory_curves
+
+POINTS = 513
+"""Points along each side of the finest map: 2⁹ + 1, so that each grid consists of every second point of the next."""
+APART = 8.0
+"""Minimum distance of two points of a map, in units of the last place."""
+SAME = 1e-3
+"""Largest relative difference at which a typed critical angle counts as that of the block in SI units."""
+LATEST, MAX_SHOWN = 100_000, 200
+"""Largest first cycle, and largest number of cycles, of the time history."""
+
+
+def closest(span: Span) -> float:
+    """Return the smallest length of a range here whose points double precision can resolve."""
+    return APART * (POINTS - 1) * math.ulp(max(abs(span.low), abs(span.high), 1e-3))
+
+
+def nearby(value: float, span: Span) -> float:
+    """Round the coordinate of a click to the fewest digits within half a point of the map."""
+    digits = math.ceil(-math.log10(span.width / (POINTS - 1)))
+    return min(max(round(value, digits), span.low), span.high)
+
+
+def resolved(span: Span) -> bool:
+    """Return whether double precision resolves a range, with a tolerance for rounding, so that the narrowest one is valid."""
+    return span.width >= closest(span) * (1.0 - 1e-3)
+
+
+ENDS = "LOW < HIGH and a range that double precision resolves"
+
+
+@frozen
+class HarmonicView(View):
+    """View of a session: system, initial state, ranges of the maps and options of the figures.
+
+    Names and units are those of `Harmonic`, `System`, `Braces` and `State`. The critical angle selects the full equation of motion.
+    """
+
+    LINKED: ClassVar[tuple[str, ...]] = ("amplitude", "period", "restitution")
+    LABELS: ClassVar[Mapping[str, str]] = {"acceleration_g": "acceleration", "frequency_hz": "frequency"}
+
+    amplitude: float = quantity(quantities.AMPLITUDE, 2.0)
+    period: float = quantity(quantities.PERIOD, 1.0)
+    restitution: float = quantity(quantities.RESTITUTION, 0.925)
+    phase: float = quantity(quantities.PHASE, 0.0)
+    angle: float = quantity(quantities.ANGLE, 0.0, None, "Θ₀", "Initial angle Θ₀, in units of θcr")
+    velocity: float = quantity(
+        quantities.VELOCITY, 0.0, None, "Θ′₀", "Initial angular velocity Θ′₀, in units of α θcr"
+    )
+    brace_angle: float | None = quantity(
+        quantities.BRACE_ANGLE,
+        None,
+        optional(number(*quantities.BRACE_ANGLE.range)),
+        title="Brace angle Θb, in units of θcr; empty for no braces",
+    )
+    brace_restitution: float = quantity(quantities.BRACE_RESTITUTION, 1.0)
+    critical_angle: float | None = quantity(
+        quantities.CRITICAL_ANGLE,
+        None,
+        optional(number(*quantities.CRITICAL_ANGLE.range)),
+        title="Critical angle θcr in rad, for the full equation of motion; empty for a slender block and small angles",
+    )
+    amplitudes: Span = axis(Span(0.0, 16.0), *quantities.AMPLITUDE.range, resolved, ENDS)
+    periods: Span = axis(Span(0.2, 3.0), *quantities.PERIOD.range, resolved, ENDS)
+    angles: Span = axis(Span(-1.2, 1.2), *quantities.ANGLE.range, resolved, ENDS)
+    velocities: Span = axis(Span(-1.2, 1.2), *quantities.VELOCITY.range, resolved, ENDS)
+    vary: str = entry("amplitude", word("amplitude", "period"))
+    first: int = entry(
+        0,
+        count(0, LATEST),
+        "first cycle",
+        title="First forcing cycle shown in the time history and the phase portrait",
+    )
+    cycles: int = entry(
+        30,
+        count(1, MAX_SHOWN),
+        title="Number of forcing cycles shown in the time history and the phase portrait",
+    )
+    curves: tuple[str, ...] = entry((), words(*theory_curves.CURVES))
+    height: float | None = entry(None, optional(number(*quantities.SIZES)))
+    width: float | None = entry(None, optional(number(*quantities.SIZES)))
+
+    @property
+    def system(self) -> System:
+        """Selected system."""
+        angle = {"critical_angle": self.critical_angle or 0.0}
+        return system_of(
+            asdict(self, recurse=False) | angle | (NO_BRACES if self.brace_angle is None else {})
+        )
+
+    @property
+    def start(self) -> State:
+        """Initial state."""
+        return State(self.angle, self.velocity)
+
+    @property
+    def block(self) -> Block | None:
+        """Block in SI units, if its height and width are given."""
+        if self.height is None or self.width is None:
+            return None
+        return Block(self.height, self.width, self.restitution)
+
+    @property
+    def fixed(self) -> dict[str, float]:
+        """Parameters that are constant over the map, by name."""
+        names = ["restitution", "phase", "angle", "velocity"]
+        if self.brace_angle is not None:
+            names += ["brace_angle", "brace_restitution"]
+        if self.critical_angle is not None:
+            names.append("critical_angle")
+        return {name: getattr(self, name) for name in names}
+
+    @property
+    def map_axes(self) -> Axes:
+        """Axes of the map of responses."""
+        return Axes(self.periods, self.amplitudes)
+
+    @property
+    def basin_axes(self) -> Axes:
+        """Axes of the basin map."""
+        return Axes(self.angles, self.velocities)
+
+    @property
+    def varied(self) -> Span:
+        """Parameter range of the orbit diagram: the range of the map along that axis."""
+        return self.amplitudes if self.vary == "amplitude" else self.periods
+
+    @property
+    def other(self) -> float:
+        """Parameter of the forcing that is constant in the orbit diagram."""
+        return self.period if self.vary == "amplitude" else self.amplitude
+
+    def at(self, value: float) -> HarmonicView:
+        """Return the view at another parameter value of the orbit diagram."""
+        return evolve(self, amplitude=value) if self.vary == "amplitude" else evolve(self, period=value)
+
+    def checked(self) -> HarmonicView:
+        """Return the view, with the exact critical angle of its block in SI units.
+
+        Raises
+        ------
+        Refused
+            If the critical angle is that of another block, or if its block cannot have its braces or its initial state.
+        """
+        view = self._with_angle_of_block()
+        if view.critical_angle is not None and view.brace_angle is not None:
+            try:
+                check_below_flat(view.brace_angle, view.critical_angle)
+            except Refusal as error:
+                raise self.refused(error) from None
+        try:
+            check_start(view.system, view.start)
+        except ValueError as error:
+            raise Refused({"angle": str(error)}) from None
+        return view
+
+    def _with_angle_of_block(self) -> HarmonicView:
+        if self.block is None or self.critical_angle is None:
+            return self
+        exact = self.block.critical_angle
+        if abs(self.critical_angle / exact - 1.0) > SAME:
+            allowed = f"be {exact:.4g}, that of the block in SI units, or empty"
+            raise self.refused(Refusal("critical_angle", allowed, self.critical_angle))
+        return evolve(self, critical_angle=exact)
+
+
+DEFAULT = HarmonicView()
+FORCED = {
+    "height": number(*quantities.SIZES),
+    "width": number(*quantities.SIZES),
+    "acceleration": number(0.0, 1e6),
+    "frequency_hz": number(1e-6, 1e6),
+}
+"""Readers of the form of a block in SI units."""
+
+
+def in_metres(view: HarmonicView, typed: Mapping[str, str]) -> HarmonicView:
+    """Return the view with a block and its forcing in SI units.
+
+    Parameters
+    ----------
+    view : HarmonicView
+        Current view.
+    typed : mapping of str to str
+        Text of `height` and `width` in m, `acceleration` in the `unit` "g" or "m/s²", and `frequency_hz` in Hz.
+
+    Returns
+    -------
+    HarmonicView
+        New view, with Housner's coefficient of restitution. Its map includes the new system. A critical angle becomes that
+        of the block.
+
+    Raises
+    ------
+    Refused
+        If a field is invalid, with one message per field.
+    """
+    read, invalid = read_fields(FORCED, {name: typed.get(name, "") for name in FORCED}, view.labels())
+    if invalid:
+        raise Refused(invalid)
+    size = "acceleration_g" if typed.get("unit") == "g" else "acceleration"
+    try:
+        block = Block(read["height"], read["width"])
+        system = block.system(**{size: read["acceleration"]}, frequency_hz=read["frequency_hz"])
+    except Refusal as error:
+        raise HarmonicView.refused(error) from None
+    forcing = system.periodic
+    wanted = attrs.evolve(
+        view,
+        amplitude=forcing.amplitude,
+        period=forcing.period,
+        restitution=system.restitution,
+        height=block.height,
+        width=block.width,
+        critical_angle=None if view.critical_angle is None else block.critical_angle,
+        amplitudes=_reaching(view.amplitudes, forcing.amplitude, quantities.AMPLITUDE.range[1]),
+        periods=_reaching(view.periods, forcing.period, quantities.PERIOD.range[1]),
+    )
+    return wanted.checked()
+
+
+def _reaching(span: Span, value: float, most: float) -> Span:
+    """Return the range, extended if necessary to contain a value."""
+    if span.low <= value <= span.high:
+        return span
+    return Span(min(span.low, value * 0.8), min(max(span.high, value * 1.25), most))
