@@ -55,7 +55,7 @@ async def send(connection, kind, content):
 
 
 async def ask(connection, link, text):
-    change = {"kind": "ModelChanged", "model": {"id": link}, "attr": "asked", "new": text}
+    change = {"kind": "ModelChanged", "model": {"id": link}, "attr": "request", "new": text}
     await send(connection, "PATCH-DOC", {"events": [change]})
 
 

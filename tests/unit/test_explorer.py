@@ -464,8 +464,8 @@ def test_start_far_beyond_return_is_drawn_as_far_as_doubles_hold():
     }
     shown = DEFAULT.changed(typed)
     drawn = harmonic_motion.traces(shown)
-    assert np.isfinite([*drawn.spans["history"], *drawn.spans["portrait"]]).all()
-    assert drawn.history["angle"][0] == -1000.0
+    assert np.isfinite([*drawn["history"]["ranges"], *drawn["portrait"]["ranges"]]).all()
+    assert drawn["history"]["line"]["angle"][0] == -1000.0
 
 
 def test_motion_that_becomes_faster_than_any_start_is_drawn():
@@ -478,7 +478,7 @@ def test_motion_that_becomes_faster_than_any_start_is_drawn():
         "first": "100",
     }
     shown = DEFAULT.changed(typed)
-    assert len(harmonic_motion.traces(shown).history["time"]) > 2
+    assert len(harmonic_motion.traces(shown)["history"]["line"]["time"]) > 2
     section = harmonic_motion.Section(shown)
     section.grow(100)
     assert section.ended == "too fast"
@@ -497,7 +497,7 @@ def test_motion_that_becomes_faster_than_any_start_is_drawn():
 def test_section_omits_the_transient_of_a_damped_motion_that_goes_on(typed, label):
     section = harmonic_motion.Section(DEFAULT.changed(typed))
     section.grow(1_000)
-    assert section.drawn(None).label == label
+    assert section.drawn(None)["label"] == label
 
 
 def test_legends_have_no_number_and_no_attractor_below_a_hundredth_of_a_percent():
@@ -511,9 +511,9 @@ def test_legends_have_no_number_and_no_attractor_below_a_hundredth_of_a_percent(
 
 def test_names_of_a_spectrum_do_not_run_into_each_other():
     """Lines at thirds of the forcing's frequency, of much the same height."""
-    names = harmonic_motion.spectrum(
-        HarmonicView(amplitude=10.103037, period=1.721328, restitution=0.8)
-    ).names
+    names = harmonic_motion.spectrum(HarmonicView(amplitude=10.103037, period=1.721328, restitution=0.8))[
+        "names"
+    ]
     places = list(zip(names["frequency"], np.log10(names["density"]), strict=True))
     assert names["name"][:2] == ["f", "f/3"]
     for (across, up), (other_across, other_up) in itertools.combinations(places, 2):
@@ -524,10 +524,10 @@ def test_motion_of_too_many_events_has_no_pictures(monkeypatch):
     monkeypatch.setattr(harmonic_motion, "SOON_HITS", 5.0)
     shown = DEFAULT.changed({"amplitude": "2.0078125", "restitution": "0.98", "brace_angle": "0.01"})
     assert harmonic_motion.crowded(shown)
-    assert harmonic_motion.spectrum(shown).why == harmonic_motion.NO_SPECTRUM
+    assert harmonic_motion.spectrum(shown)["why"] == harmonic_motion.NO_SPECTRUM
     assert (
-        len(harmonic_motion.traces(shown).history["time"])
-        == len(harmonic_motion.diagram(shown, np.zeros(1, np.int64))[0]["angle"])
+        len(harmonic_motion.traces(shown)["history"]["line"]["time"])
+        == len(harmonic_motion.diagram(shown, np.zeros(1, np.int64))["points"]["angle"])
         == 0
     )
 
@@ -561,7 +561,7 @@ def test_what_is_under_way_for_one_system_ends_when_another_is_chosen():
             stops[name] = stop
             await asyncio.Event().wait()
 
-        for name in ("response", "section", "basin", "judge", "diagram"):
+        for name in ("response", "section", "basin", "verdict", "diagram"):
             visit.jobs.start(name, partial(endless, name))
         await asyncio.sleep(0)
         visit.hear(json.dumps({"what": "fields", "fields": {"period": "1.5"}}))
@@ -570,7 +570,42 @@ def test_what_is_under_way_for_one_system_ends_when_another_is_chosen():
         workers.close()
         return ended
 
-    assert alone(run()) == {"response": 1, "section": 1, "basin": 1, "judge": 1, "diagram": 1}
+    assert alone(run()) == {"response": 1, "section": 1, "basin": 1, "verdict": 1, "diagram": 1}
+
+
+@pytest.mark.parametrize(
+    "fields, started",
+    [
+        ({"amplitude": "3"}, ["response"]),
+        ({"period": "1.5"}, ["response", "diagram"]),
+        ({"restitution": "0.8"}, ["map", "response", "diagram"]),
+        ({"restitution": "0.8", "angles": "-1:1"}, ["map", "response", "diagram"]),
+        ({"amplitudes": "0:8"}, ["map", "diagram"]),
+        ({"periods": "1:2"}, ["map"]),
+        ({"angles": "-1:1"}, ["basin"]),
+        ({"first": "3"}, ["response"]),
+        ({"vary": "period"}, ["diagram"]),
+        ({"curves": "melnikov"}, []),
+    ],
+)
+def test_jobs_start_whose_fields_have_changed(fields, started, monkeypatch):
+    async def run():
+        workers = Workers()
+        session = HarmonicSession(Document(), workers)
+        names = []
+        monkeypatch.setattr(session.jobs, "start", lambda name, *_: names.append(name))
+        session.hear(json.dumps({"what": "open", "fields": {}}))
+        assert names == ["map", "response", "diagram"]
+        names.clear()
+        session.hear(json.dumps({"what": "fields", "fields": fields}))
+        workers.close()
+        return names, json.loads(session.link.view)
+
+    names, view = alone(run())
+    assert names == started
+    assert view["moved"] == ("response" in started)
+    renewed = {"map": ["map"], "response": ["basin", "section"], "basin": ["basin"], "diagram": []}
+    assert view["renewed"] == sorted(itertools.chain(*(renewed[name] for name in started)))
 
 
 def test_job_waits_for_another_however_that_ends():
@@ -641,14 +676,14 @@ def test_diagram_costs_what_its_dearest_values_cost(monkeypatch):
     monkeypatch.setattr(harmonic_motion, "SOON_HITS", 5.0)
     shown = DEFAULT.changed({"amplitude": "0", "restitution": "0.98", "brace_angle": "0.01"})
     assert not harmonic_motion.crowded(shown)
-    assert len(harmonic_motion.diagram(shown, np.zeros(1, np.int64))[0]["angle"]) == len(asked) == 0
+    assert len(harmonic_motion.diagram(shown, np.zeros(1, np.int64))["points"]["angle"]) == len(asked) == 0
 
 
 def test_pieces_of_a_diagram_are_the_whole(monkeypatch):
     stop = np.zeros(1, np.int64)
-    whole = harmonic_motion.diagram(DEFAULT, stop)[0]
+    whole = harmonic_motion.diagram(DEFAULT, stop)["points"]
     monkeypatch.setattr(harmonic_motion, "PIECE_HITS", 5e3)
-    pieces = harmonic_motion.diagram(DEFAULT, stop)[0]
+    pieces = harmonic_motion.diagram(DEFAULT, stop)["points"]
     assert all((whole[name] == pieces[name]).all() for name in ("value", "angle"))
 
 
@@ -697,7 +732,7 @@ CASES = pytest.mark.parametrize("case", presets.CASES, ids=lambda case: case.nam
 @CASES
 def test_case_of_the_gallery_is_what_it_says(case):
     """One run in six in the chaotic sea of figure 6, with phases that differ by rounding, stays near an island for long."""
-    verdict = rk.classify(case.shown.system, case.shown.start)
+    verdict = rk.classify(case.view.system, case.view.start)
     kinds, period = KINDS[case.name]
     assert verdict.kind in kinds.split(" or ")
     assert verdict.period == period
@@ -705,8 +740,8 @@ def test_case_of_the_gallery_is_what_it_says(case):
 
 @CASES
 def test_case_of_the_gallery_has_an_address_and_lines_of_python(case):
-    assert HarmonicView.from_address(case.shown.address) == (case.shown, {})
-    compile(texts.python(case.shown), case.name, "exec")
+    assert HarmonicView.from_address(case.view.address) == (case.view, {})
+    compile(texts.python(case.view), case.name, "exec")
 
 
 def test_codes_of_criteria_in_a_map_have_the_level_that_classify_gives():

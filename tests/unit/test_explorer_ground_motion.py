@@ -383,41 +383,43 @@ def test_saved_map_has_the_blocks_and_the_results(workers):
 
 def test_time_history_and_verdict_are_those_of_the_simulation():
     shown = attrs.evolve(DEFAULT, source="file", scale=1.4)
-    found = block_motion(shown, Ground(SHORT))
+    drawn, words = block_motion(shown, Ground(SHORT))
+    line = drawn["history"]["line"]
     motion = rk.simulate(shown.block.system(SHORT.scaled(1.4)))
-    angle, _ = motion.at(shown.block.time(found.angle["time"]))
-    assert found.angle["angle"] == pytest.approx(shown.block.degrees(angle), abs=1e-9)
-    assert np.abs(found.angle["angle"]).max() == pytest.approx(shown.block.degrees(motion.peak), rel=1e-4)
-    facts = dict(found.words["facts"])
+    angle, _ = motion.at(shown.block.time(line["time"]))
+    assert line["angle"] == pytest.approx(shown.block.degrees(angle), abs=1e-9)
+    assert np.abs(line["angle"]).max() == pytest.approx(shown.block.degrees(motion.peak), rel=1e-4)
+    facts = dict(words["facts"])
     assert facts["impacts"] == str(motion.impacts)
-    assert found.words["kind"] == "rocks and stands"
-    assert found.words["decided"]
-    assert f"{motion.validity(shown.block).friction:.3g}" in found.words["validity"][0]
-    assert f"{-motion.margin:.3g} α θcr" in found.words["margin"]
+    assert words["kind"] == "rocks and stands"
+    assert words["decided"]
+    assert f"{motion.validity(shown.block).friction:.3g}" in words["validity"][0]
+    assert f"{-motion.margin:.3g} α θcr" in words["margin"]
 
 
 def test_full_equation_of_motion_tells_that_rounding_is_not_assessed():
     shown = attrs.evolve(DEFAULT, source="file", scale=1.4, model="full")
-    found = block_motion(shown, Ground(SHORT))
+    drawn, words = block_motion(shown, Ground(SHORT))
+    line = drawn["history"]["line"]
     motion = rk.simulate(shown.block.system(SHORT.scaled(1.4), model="full"))
-    assert np.abs(found.angle["angle"]).max() == pytest.approx(shown.block.degrees(motion.peak), rel=1e-4)
-    facts = dict(found.words["facts"])
+    assert np.abs(line["angle"]).max() == pytest.approx(shown.block.degrees(motion.peak), rel=1e-4)
+    facts = dict(words["facts"])
     assert facts["lifts off at"] == "0.25 g"  # g tan θcr
-    assert found.words["margin"] == ""
-    assert found.words["certified"].endswith("the effect of rounding on the outcome is not assessed.")
-    assert not any("slender" in sentence for sentence in found.words["validity"])
-    falls = block_motion(attrs.evolve(shown, scale=9.0), Ground(SHORT))
-    assert np.abs(falls.angle["angle"]).max() == pytest.approx(90.0, abs=1e-9)
+    assert words["margin"] == ""
+    assert words["certified"].endswith("the effect of rounding on the outcome is not assessed.")
+    assert not any("slender" in sentence for sentence in words["validity"])
+    falls, _ = block_motion(attrs.evolve(shown, scale=9.0), Ground(SHORT))
+    assert np.abs(falls["history"]["line"]["angle"]).max() == pytest.approx(90.0, abs=1e-9)
 
 
 def test_block_that_stays_still_or_falls_is_described_so():
-    still = block_motion(attrs.evolve(DEFAULT, scale=0.1), Ground(SHORT))
-    assert (still.words["kind"], still.words["margin"]) == ("stands still", "The block never lifts off.")
-    falls = block_motion(attrs.evolve(DEFAULT, scale=9.0), Ground(SHORT))
-    assert falls.words["kind"] == "overturns"
-    assert np.abs(falls.angle["angle"]).max() > DEFAULT.block.degrees(1.0)
-    assert "overturning certain from" in dict(falls.words["facts"])
-    assert "largest |θ|" not in dict(falls.words["facts"])
+    _, words = block_motion(attrs.evolve(DEFAULT, scale=0.1), Ground(SHORT))
+    assert (words["kind"], words["margin"]) == ("stands still", "The block never lifts off.")
+    falls, words = block_motion(attrs.evolve(DEFAULT, scale=9.0), Ground(SHORT))
+    assert words["kind"] == "overturns"
+    assert np.abs(falls["history"]["line"]["angle"]).max() > DEFAULT.block.degrees(1.0)
+    assert "overturning certain from" in dict(words["facts"])
+    assert "largest |θ|" not in dict(words["facts"])
 
 
 def test_margin_is_the_speed_that_the_block_lacked_or_had_to_spare():

@@ -258,7 +258,7 @@ def test_request_is_heard_in_the_event_loop_whichever_thread_brings_it(kind):
         [visit], [session] = visits, made.get_sessions("/")
         jobs = visit.jobs
         text = json.dumps({"what": "open", "fields": {"address": "version=1"}})
-        await session.with_document_locked(lambda: asyncio.to_thread(setattr, visit.link, "asked", text))
+        await session.with_document_locked(lambda: asyncio.to_thread(setattr, visit.link, "request", text))
         while not jobs.busy:
             await asyncio.sleep(0.01)
         jobs.end_all()

@@ -1,14 +1,14 @@
 // Parts of every page of the explorer. The script of a page follows them: it declares `page`, its figures, maps and messages.
 "use strict";
-const given = JSON.parse(document.getElementById("given").textContent);
+const constants = JSON.parse(document.getElementById("constants").textContent);
 const find = id => document.getElementById(id);
 const all = selector => [...document.querySelectorAll(selector)];
-let link, shown, models = {}, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, asked = 0;
+let link, shown, models = {}, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, requests = 0;
 
 // ---- requests and messages
 
 function ask(what, fields, push = true) {
-  link.asked = JSON.stringify({ n: ++asked, what, fields, push: push ? "yes" : "no" });
+  link.request = JSON.stringify({ n: ++requests, what, fields, push: push ? "yes" : "no" });
 }
 
 function listen(name, act) {
@@ -47,12 +47,12 @@ const waiting = setInterval(() => {
 const depth = () => history.state?.n ?? 0;
 
 // Put the address of a view into the history of the browser.
-function remember(told, before) {
-  if (told.push && before && told.address !== before.address) {
-    history.pushState({ n: depth() + 1 }, "", "?" + told.address);
+function remember(view, before) {
+  if (view.push && before && view.address !== before.address) {
+    history.pushState({ n: depth() + 1 }, "", "?" + view.address);
     sessionStorage.setItem("deepest", depth());
   } else {
-    history.replaceState({ n: depth() }, "", "?" + told.address);
+    history.replaceState({ n: depth() }, "", "?" + view.address);
   }
   stack();
 }
@@ -68,11 +68,11 @@ find("redo").onclick = () => history.forward();
 
 // ---- contents of the figures
 
-const parts = told => (told instanceof Map ? [...told] : Object.entries(told));
+const parts = value => (value instanceof Map ? [...value] : Object.entries(value));
 let answers = {}; // results of a figure that are not drawn, by its name: at each point of a map, and all points of a section
 
 function draw(drawn) {
-  for (const [name, told] of parts(drawn)) if (models[name]) for (const [part, value] of parts(told)) fill(name, part, value);
+  for (const [name, contents] of parts(drawn)) if (models[name]) for (const [part, value] of parts(contents)) fill(name, part, value);
   if (parts(drawn).some(([name]) => name === "history")) scene();
   read();
 }
@@ -130,18 +130,18 @@ function strong(text) {
 
 // ---- messages
 
-function judge(told) {
+function conclude(message) {
   clearTimeout(late);
   late = undefined;
   find("verdict").classList.remove("stale");
-  write(told);
+  write(message);
 }
 
-function write(told) {
-  find("kind").textContent = told.kind;
-  find("verdict").querySelector("i").style.background = told.colour;
-  find("facts").replaceChildren(...rows(told.facts));
-  find("evidence").textContent = told.evidence;
+function write(message) {
+  find("kind").textContent = message.kind;
+  find("verdict").querySelector("i").style.background = message.colour;
+  find("facts").replaceChildren(...rows(message.facts));
+  find("evidence").textContent = message.evidence;
 }
 
 function rows(facts) {
@@ -166,11 +166,11 @@ function entry(name, background, share, ramp = false) {
 
 const bar = document.querySelector("#bar i");
 
-function progress(told) {
-  find("progress").textContent = told.done ? "" : `Computing the map: ${told.text}`;
-  bar.style.opacity = told.done ? 0 : 1;
-  bar.style.width = `${100 * told.share}%`;
-  document.body.dataset.map = told.done ? "done" : String(told.side);
+function progress(message) {
+  find("progress").textContent = message.done ? "" : `Computing the map: ${message.text}`;
+  bar.style.opacity = message.done ? 0 : 1;
+  bar.style.width = `${100 * message.share}%`;
+  document.body.dataset.map = message.done ? "done" : String(message.side);
 }
 
 function pardon(input) {
@@ -239,8 +239,8 @@ function lines(table) {
 for (const button of all("[data-save]")) button.onclick = async () => {
   const name = find("which").value, kind = button.dataset.save;
   if (kind !== "csv") return save(name, await Bokeh.index.find_one(models[name]).export(kind, true).to_blob(), kind);
-  const found = table(name);
-  if (found) save(name, new Blob([lines(found)], { type: "text/csv" }), kind);
+  const data = table(name);
+  if (data) save(name, new Blob([lines(data)], { type: "text/csv" }), kind);
   else say("The figure is not computed yet: save it when it is.");
 };
 
@@ -346,9 +346,9 @@ function tick(at) {
   requestAnimationFrame(tick);
 }
 requestAnimationFrame(tick);
-const told = () => { find("play").textContent = playing ? "❚❚" : "▶"; };
-find("play").onclick = () => { playing = !playing; told(); };
-told();
+const label = () => { find("play").textContent = playing ? "❚❚" : "▶"; };
+find("play").onclick = () => { playing = !playing; label(); };
+label();
 new ResizeObserver(frame).observe(find("block"));
 const preferred = () => (localStorage.getItem("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light"));
 theme(preferred());

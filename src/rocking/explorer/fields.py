@@ -126,9 +126,9 @@ def span(low: float, high: float, fits: Callable[[Span], bool], ends: str) -> Re
 
     def read(name: str, text: str) -> Span:
         first, _, last = text.partition(":")
-        found = Span(end(name, first), end(name, last))
-        refuse_if(not fits(found), name, f"be LOW:HIGH, with {ends}", text)
-        return found
+        value = Span(end(name, first), end(name, last))
+        refuse_if(not fits(value), name, f"be LOW:HIGH, with {ends}", text)
+        return value
 
     return read
 

@@ -1,7 +1,7 @@
 const page = {
   figures: ["map", "history", "base"],
   maps: ["map"],
-  messages: { shown: show, verdict, legend, progress, refused },
+  messages: { view: show, verdict, legend, progress, refused },
 };
 
 // ---- the view
@@ -9,25 +9,25 @@ const page = {
 const rounded = (value, digits = 4) => String(Number(Number(value).toPrecision(digits)));
 const brief = text => (/^-?\d*\.?\d+(e.*)?$/.test(text) && text.length > 8 ? rounded(text, 6) : text);
 
-function show(told) {
+function show(view) {
   const before = shown;
-  shown = told;
+  shown = view;
   const channel = find("channel");
-  channel.replaceChildren(...told.channels.map((name, n) => new Option(name ? `${n + 1}: ${name}` : String(n + 1), n + 1)));
-  for (const [name, text] of Object.entries(told.fields)) {
+  channel.replaceChildren(...view.channels.map((name, n) => new Option(name ? `${n + 1}: ${name}` : String(n + 1), n + 1)));
+  for (const [name, text] of Object.entries(view.fields)) {
     const field = document.querySelector(`#fields [name="${name}"]`);
     if (field && !field.dataset.typing) field.value = field.tagName === "INPUT" && document.activeElement !== field ? brief(text) : text;
   }
-  place(told.fields.source);
-  remember(told, before);
-  if (!sliding) find("slider").value = slot(told.fields.scale);
-  find("pga").textContent = `PGA ${rounded(told.ground.pga * told.fields.scale, 3)} g`;
+  place(view.fields.source);
+  remember(view, before);
+  if (!sliding) find("slider").value = slot(view.fields.scale);
+  find("pga").textContent = `PGA ${rounded(view.ground.pga * view.fields.scale, 3)} g`;
   find("link-text").textContent = location.href;
-  find("link-note").hidden = told.fields.source !== "file";
-  find("ground-name").textContent = told.ground.name;
-  find("ground-facts").replaceChildren(...rows(told.ground.facts));
-  find("ground-note").textContent = told.ground.note;
-  outdate(told);
+  find("link-note").hidden = view.fields.source !== "file";
+  find("ground-name").textContent = view.ground.name;
+  find("ground-facts").replaceChildren(...rows(view.ground.facts));
+  find("ground-note").textContent = view.ground.note;
+  outdate(view);
 }
 
 // Fields of the pulse and of the file are visible only for these sources.
@@ -38,9 +38,9 @@ function place(source) {
   find("channel-label").hidden = source !== "file" || (shown?.channels.length ?? 0) < 2;
 }
 
-function refused(told) {
-  refuse(told);
-  if (told.fields.file) place("file");
+function refused(message) {
+  refuse(message);
+  if (message.fields.file) place("file");
 }
 
 for (const field of all("#fields input:not([type]), #fields select")) {
@@ -123,32 +123,32 @@ function readout(across, up) {
   const size = x_range.start * (x_range.end / x_range.start) ** across, angle = y_range.start + up * (y_range.end - y_range.start);
   const column = Math.round(Math.log(size / left) / Math.log(right / left) * (side - 1)), row = Math.round((angle - low) / (high - low) * (side - 1));
   if (column < 0 || row < 0 || column >= side || row >= side) return;
-  const found = block(row * side + column, side);
-  const reach = found.outcome === "rocks and stands" ? `, largest angle ${rounded(found.peak * found.angle, 3)}° = ${rounded(found.peak, 3)} θcr` : "";
-  const place = `Height ${rounded(found.height, 3)} m, width ${rounded(found.width, 3)} m (R ${rounded(found.size, 3)} m, θcr ${rounded(found.angle, 3)}°): `;
-  return [place, strong(found.outcome), reach + (found.certified ? "" : "; not certified")];
+  const result = block(row * side + column, side);
+  const reach = result.outcome === "rocks and stands" ? `, largest angle ${rounded(result.peak * result.angle, 3)}° = ${rounded(result.peak, 3)} θcr` : "";
+  const place = `Height ${rounded(result.height, 3)} m, width ${rounded(result.width, 3)} m (R ${rounded(result.size, 3)} m, θcr ${rounded(result.angle, 3)}°): `;
+  return [place, strong(result.outcome), reach + (result.certified ? "" : "; not certified")];
 }
 
 // ---- verdict and legend
 
-function verdict(told) {
-  judge({ ...told, evidence: "" });
-  find("evidence").replaceChildren(...[told.margin, told.certified, ...told.validity].map((sentence, n) => {
+function verdict(message) {
+  conclude({ ...message, evidence: "" });
+  find("evidence").replaceChildren(...[message.margin, message.certified, ...message.validity].map((sentence, n) => {
     const line = document.createElement("span");
     line.textContent = sentence;
-    if (n === 1 && !told.decided) line.className = "undecided";
+    if (n === 1 && !message.decided) line.className = "undecided";
     return line;
   }));
 }
 
-function legend(told) {
+function legend(message) {
   find("legend").replaceChildren(
-    entry("stands still", told.stands.colour, told.stands.share),
-    entry("rocks and stands, largest |θ|/θcr 0 to 1", `linear-gradient(90deg, ${told.rocks.colours.join(", ")})`, told.rocks.share, true),
-    entry("overturns", told.overturns.colour, told.overturns.share),
+    entry("stands still", message.stands.colour, message.stands.share),
+    entry("rocks and stands, largest |θ|/θcr 0 to 1", `linear-gradient(90deg, ${message.rocks.colours.join(", ")})`, message.rocks.share, true),
+    entry("overturns", message.overturns.colour, message.overturns.share),
   );
-  if (told.undecided) find("legend").append(Object.assign(document.createElement("li"), { textContent: `not certified: ${told.undecided}` }));
-  find("map").setAttribute("aria-label", `Map of outcomes over size and critical angle: stands still ${told.stands.share}, rocks and stands ${told.rocks.share}, overturns ${told.overturns.share}. Enter height and width to select a block.`);
+  if (message.undecided) find("legend").append(Object.assign(document.createElement("li"), { textContent: `not certified: ${message.undecided}` }));
+  find("map").setAttribute("aria-label", `Map of outcomes over size and critical angle: stands still ${message.stands.share}, rocks and stands ${message.rocks.share}, overturns ${message.overturns.share}. Enter height and width to select a block.`);
 }
 
 // ---- the animation, seen from the base
@@ -158,7 +158,7 @@ function scene() {
   const angle = Array.from(degrees, value => value * Math.PI / 180 / critical), angles = magnified(angle, critical);
   film = { time, angle, height, width, critical, angles, moves: 1, displacement: () => 0, speed: 1 };
   clock = Math.min(clock, time[time.length - 1] ?? 0);
-  find("scene-told").textContent = angles > 1.05 ? `angle × ${angles.toPrecision(2)}` : "true to scale";
+  find("scale-note").textContent = angles > 1.05 ? `angle × ${angles.toPrecision(2)}` : "true to scale";
   frame();
 }
 

@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-from attrs import frozen
 
 from rocking.explorer.ground_maps import ANGLES, FALLEN, STILL
 from rocking.explorer.ground_view import Ground, GroundView, thinned
@@ -24,53 +23,37 @@ OVER = 0.02
 Facts = list[tuple[str, str]]
 
 
-@frozen(eq=False)
-class BlockMotion:
-    """Figures and words of one block under a base motion.
-
-    Attributes
-    ----------
-    angle, base : dict of arrays
-        Angle in degrees, and acceleration of the base in g, over the time in s.
-    spans : dict of list
-        Ranges of both figures: left, right, bottom, top.
-    words : dict
-        Verdict for the page.
-    """
-
-    angle: dict[str, np.ndarray]
-    base: dict[str, np.ndarray]
-    spans: dict[str, list[float]]
-    words: dict[str, Any]
+Contents = dict[str, dict[str, Any]]
+"""New contents of both figures, the time history of the angle in degrees and the acceleration of the base in g, over the time in s."""
 
 
-def block_motion(shown: GroundView, ground: Ground) -> BlockMotion:
-    """Simulate the selected block under the scaled base motion."""
-    block, base = shown.block, ground.scaled(shown.scale)
-    motion = simulate(block.system(base, model=shown.model))
+def block_motion(view: GroundView, ground: Ground) -> tuple[Contents, dict[str, Any]]:
+    """Simulate the selected block under the scaled base motion; return the figures, and the verdict in words."""
+    block, base = view.block, ground.scaled(view.scale)
+    motion = simulate(block.system(base, model=view.model))
     times, degrees = _history(motion, block, ground.sampled.times.size)
-    line = ground.line(shown.scale)
-    end = float(max(times[-1], line["time"][-1]))
     fullest = max(float(np.abs(degrees).max()), 0.2 * block.degrees(1.0))
-    return BlockMotion(
-        {"time": times, "angle": degrees}, line, _spans(line, end, fullest), _words(motion, block)
-    )
+    return _figures(view, ground, times, degrees, fullest), _words(motion, block)
 
 
-def no_motion(shown: GroundView, ground: Ground, reason: str) -> BlockMotion:
+def no_motion(view: GroundView, ground: Ground, reason: str) -> tuple[Contents, dict[str, Any]]:
     """Return figures without a motion, and the reason in place of the verdict."""
-    line, critical = ground.line(shown.scale), shown.block.degrees(1.0)
-    nothing = {"time": np.empty(0), "angle": np.empty(0)}
     words = {"kind": "not computed", "colour": "", "facts": [], "decided": True, "validity": []}
     words |= {"margin": f"{reason[0].upper()}{reason[1:]}.", "certified": ""}
-    return BlockMotion(nothing, line, _spans(line, float(line["time"][-1]), critical), words)
+    return _figures(view, ground, np.empty(0), np.empty(0), view.block.degrees(1.0)), words
 
 
-def _spans(line: dict[str, np.ndarray], end: float, fullest: float) -> dict[str, list[float]]:
-    """Return the ranges of the angle and of the base acceleration, with free borders."""
+def _figures(
+    view: GroundView, ground: Ground, times: np.ndarray, degrees: np.ndarray, fullest: float
+) -> Contents:
+    """Return both figures for the same times, with free borders, and with lines at both critical angles."""
+    line, critical = ground.line(view.scale), view.block.degrees(1.0)
+    end = float(max([*times[-1:], line["time"][-1]]))
     angle = fullest * (1 + 2 * OVER)
     largest = max(float(np.abs(line["acceleration"]).max()), 1e-6) * (1 + 5 * OVER)
-    return {"history": [0.0, end, -angle, angle], "base": [0.0, end, -largest, largest]}
+    history = {"ranges": [0.0, end, -angle, angle], "line": {"time": times, "angle": degrees}}
+    history |= {"above": critical, "below": -critical}
+    return {"history": history, "base": {"ranges": [0.0, end, -largest, largest], "line": line}}
 
 
 def _history(motion: Motion, block: Block, samples: int) -> tuple[np.ndarray, np.ndarray]:
@@ -141,15 +124,15 @@ def margin_in_words(motion: Motion, block: Block) -> str:
 
 def _validity(motion: Motion, block: Block) -> list[str]:
     """Return the required friction, the error of the slender-block model and the warnings, as sentences."""
-    found = motion.validity(block)
+    validity = motion.validity(block)
     friction = []
-    if found.friction is not None and math.isfinite(found.friction):
-        friction = [f"Required coefficient of friction: {found.friction:.3g}."]
-    elif found.friction is not None:
+    if validity.friction is not None and math.isfinite(validity.friction):
+        friction = [f"Required coefficient of friction: {validity.friction:.3g}."]
+    elif validity.friction is not None:
         friction = ["No friction suffices, because the base reaction vanishes."]
     errors = []
-    if math.isfinite(found.moment_error) and motion.system.critical_angle is None:
+    if math.isfinite(validity.moment_error) and motion.system.critical_angle is None:
         errors = [
-            f"The slender-block model overestimates the restoring moment by up to {found.moment_error:.1%}."
+            f"The slender-block model overestimates the restoring moment by up to {validity.moment_error:.1%}."
         ]
-    return [*friction, *errors, *(f"{each[0].upper()}{each[1:]}." for each in found.warnings)]
+    return [*friction, *errors, *(f"{each[0].upper()}{each[1:]}." for each in validity.warnings)]

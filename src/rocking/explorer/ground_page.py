@@ -12,7 +12,7 @@ from bokeh.document import Document
 
 from rocking.explorer import figures, ground_maps
 from rocking.explorer.fields import Refused
-from rocking.explorer.ground_block import BlockMotion, block_motion, no_motion
+from rocking.explorer.ground_block import Contents, block_motion, no_motion
 from rocking.explorer.ground_maps import Endings
 from rocking.explorer.ground_view import (
     DEFAULT,
@@ -53,7 +53,7 @@ class GroundSession(Session):
         self.channels: tuple[Ground, ...] = ()
         super().__init__(document, workers)
         receive = self.in_turn(self.receive)
-        self.link.on_change("file", lambda _name, _before, given: receive(given))
+        self.link.on_change("file", lambda _name, _before, value: receive(value))
 
     # figures and requests
 
@@ -88,13 +88,13 @@ class GroundSession(Session):
 
     # files
 
-    def receive(self, given: Any) -> None:
+    def receive(self, value: Any) -> None:
         """Read a file that the page sends; its bytes stay in this session until the next file."""
-        if given is None:
+        if value is None:
             return
         self.link.file = None  # type: ignore[assignment]  # the type hint of the property lacks values
         try:
-            self.file = open_file(given)
+            self.file = open_file(value)
         except ValueError as error:
             self.link.refuse(file=str(error))
             return
@@ -186,21 +186,16 @@ class GroundSession(Session):
     # one block
 
     async def draw_motion(self, view: GroundView, stop: np.ndarray) -> None:
-        """Draw the motion of the selected block and tell its verdict."""
+        """Draw the motion of the selected block and send its verdict."""
         try:
-            motion = await self.workers.soon(block_motion, view, self.ground)
+            drawn, words = await self.workers.soon(block_motion, view, self.ground)
         except TooManyEvents as error:
-            motion = no_motion(view, self.ground, str(error))
-        await self.change(self._draw_motion, view, motion)
+            drawn, words = no_motion(view, self.ground, str(error))
+        await self.change(self._draw_motion, drawn, words)
 
-    def _draw_motion(self, view: GroundView, motion: BlockMotion) -> None:
-        critical = view.block.degrees(1.0)
-        lines = {"above": critical, "below": -critical}
-        self.link.draw(
-            history={"ranges": motion.spans["history"], "line": motion.angle, **lines},
-            base={"ranges": motion.spans["base"], "line": motion.base},
-        )
-        self.link.send("verdict", motion.words)
+    def _draw_motion(self, drawn: Contents, words: dict[str, Any]) -> None:
+        self.link.draw(**drawn)
+        self.link.send("verdict", words)
 
     JOBS = (
         Job("map", refine_map, (*SHAKEN, "sizes", "angles"), ("map",)),

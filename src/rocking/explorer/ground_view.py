@@ -144,21 +144,21 @@ class Ground:
     ----------
     base : GroundMotion or Pulse
         Base motion in SI units.
-    doubts : list of str
+    warnings : list of str
         Sentences of the reader of its file.
     """
 
     base: GroundMotion | Pulse
-    doubts: list[str] = field(factory=list)
+    warnings: list[str] = field(factory=list)
 
     @cached_property
     def note(self) -> str:
-        """Sentence for each doubt about a record; empty for none."""
+        """Sentence for each warning about a record; empty for none."""
         if not isinstance(self.base, GroundMotion):
             return ""
         vertical = vertical_sentence([self.base.component]) if self.base.vertical else ""
-        found = filter(None, (*self.doubts, vertical, self.base.drift_doubt))
-        return " ".join(f"{each[0].upper()}{each[1:]}." for each in found)
+        sentences = filter(None, (*self.warnings, vertical, self.base.drift_doubt))
+        return " ".join(f"{each[0].upper()}{each[1:]}." for each in sentences)
 
     @cached_property
     def sampled(self) -> GroundMotion:
@@ -190,16 +190,16 @@ class Ground:
     def facts(self) -> list[tuple[str, str]]:
         """Facts that do not depend on the scale, by name."""
         motion = self.sampled
-        found = [
+        facts = [
             ("duration", f"{motion.duration:.4g} s"),
             ("significant duration (5–95 %)", f"{motion.significant_duration:.4g} s"),
         ]
         if isinstance(self.base, GroundMotion):
-            found.append(("samples", f"{motion.times.size:,}, every {motion.step:.4g} s"))
+            facts.append(("samples", f"{motion.times.size:,}, every {motion.step:.4g} s"))
         if motion.file is not None:
             digest = motion.file.sha256[:12]
-            found.append(("file", f"{motion.file.name}, {motion.file.format}, SHA-256 {digest}…"))
-        return found
+            facts.append(("file", f"{motion.file.name}, {motion.file.format}, SHA-256 {digest}…"))
+        return facts
 
     def scaled(self, scale: float) -> GroundMotion | Pulse:
         """Return the base motion times a factor."""
@@ -245,28 +245,28 @@ def _example() -> GroundMotion:
     return example_ground_motion()
 
 
-def ground_of(shown: GroundView, channels: tuple[Ground, ...]) -> Ground:
+def ground_of(view: GroundView, channels: tuple[Ground, ...]) -> Ground:
     """Return the base motion of a view; `channels` are those of the file that the session has read."""
-    if shown.source == "pulse":
-        return Ground(Pulse(shown.kind, amplitude=shown.amplitude * GRAVITY, duration=shown.duration))
-    if shown.source == "file":
-        return channels[min(shown.channel, len(channels)) - 1]
-    if shown.source == "example":
+    if view.source == "pulse":
+        return Ground(Pulse(view.kind, amplitude=view.amplitude * GRAVITY, duration=view.duration))
+    if view.source == "file":
+        return channels[min(view.channel, len(channels)) - 1]
+    if view.source == "example":
         return Ground(_example())
-    return Ground(_synthetic()[int(shown.source[-1]) - 1])
+    return Ground(_synthetic()[int(view.source[-1]) - 1])
 
 
-def read_file(name: str, data: bytes, shown: GroundView) -> tuple[Ground, ...]:
+def read_file(name: str, data: bytes, view: GroundView) -> tuple[Ground, ...]:
     """Read all channels of a file from memory; RecordError or ValueError with one sentence if that is not possible."""
     if len(data) > MAX_FILE:
         raise ValueError(f"{name}: larger than {MAX_FILE // 1_000_000} MB")
-    found = read_apart(data, READING, name=name, units=shown.units or None, step=shown.step)
-    return tuple(Ground(motion, doubts) for motion, doubts in found)
+    channels = read_apart(data, READING, name=name, units=view.units or None, step=view.step)
+    return tuple(Ground(motion, warnings) for motion, warnings in channels)
 
 
-def open_file(given: Any) -> tuple[str, bytes]:
+def open_file(value: Any) -> tuple[str, bytes]:
     """Return name and bytes of a file that the page sends; ValueError for anything else."""
-    name, data = (given.get("name"), given.get("data")) if isinstance(given, Mapping) else (None, None)
+    name, data = (value.get("name"), value.get("data")) if isinstance(value, Mapping) else (None, None)
     if not isinstance(name, str) or not isinstance(data, bytes | bytearray | memoryview):
         raise ValueError("the file could not be received; please reload the page")
     return name[-255:] or "file", bytes(data)

@@ -1,7 +1,7 @@
 const page = {
   figures: ["map", "basin", "history", "portrait", "section", "spectrum", "diagram"],
   maps: ["map", "basin"],
-  messages: { shown: show, verdict: judge, legend, progress, basin: attractors, refused: refuse },
+  messages: { view: show, verdict: conclude, legend, progress, basin: attractors, refused: refuse },
 };
 const still = new Set(); // maps whose ranges the page itself is setting
 
@@ -14,31 +14,31 @@ function brief(text) {
   return "≈" + (rounded.find(each => each.length <= 7) ?? rounded[3]);
 }
 
-function show(told) {
+function show(view) {
   const before = shown;
-  shown = told;
-  for (const [name, text] of Object.entries(told.fields)) {
+  shown = view;
+  for (const [name, text] of Object.entries(view.fields)) {
     const input = document.querySelector(`#fields [name="${name}"]`);
     if (!input) continue;
     input.title = brief(text) === text ? "" : text;
     if (document.activeElement !== input) input.value = brief(text);
     else if (!input.dataset.typing) input.value = text;
   }
-  const on = new Set(told.fields.curves.split(","));
+  const on = new Set(view.fields.curves.split(","));
   for (const box of all("#curves input")) box.checked = on.has(box.name);
-  find("curves").disabled = Boolean(told.fields.brace_angle || told.fields.critical_angle);
-  remember(told, before);
+  find("curves").disabled = Boolean(view.fields.brace_angle || view.fields.critical_angle);
+  remember(view, before);
   page.maps.forEach(steady);
-  find("depth").textContent = told.planes.map.deepest ? "Zoom limit of double precision" : "";
-  find("vary").value = told.fields.vary;
-  const [low, high, value] = told.slider;
+  find("depth").textContent = view.planes.map.deepest ? "Zoom limit of double precision" : "";
+  find("vary").value = view.fields.vary;
+  const [low, high, value] = view.slider;
   if (document.activeElement !== find("slider") || !sliding) find("slider").value = 1000 * (value - low) / (high - low);
-  find("python").textContent = told.python;
-  find("commands").textContent = told.commands;
+  find("python").textContent = view.python;
+  find("commands").textContent = view.commands;
   find("link-text").textContent = location.href;
-  outdate(told);
+  outdate(view);
   find("units").close(); // uncovers the new view
-  if (told.fields.height) { find("m-height").value = told.fields.height; find("m-width").value = told.fields.width; }
+  if (view.fields.height) { find("m-height").value = view.fields.height; find("m-width").value = view.fields.width; }
 }
 
 // ---- maps: the browser zooms and pans, the server computes
@@ -105,14 +105,14 @@ function readout(across, up) {
   if (column < 0 || row < 0 || column >= side || row >= side) return;
   const at = row * side + column, look = source.look[at], period = source.response_period[at], impacts = source.impacts_per_period[at];
   const ground = source.evidence[at], exponent = source.exponent[at], [baseX, baseY] = shown.planes.map.base;
-  const told = [];
-  if (period > 0) told.push(`repeats after ${period} cycle${period > 1 ? "s" : ""}` + (impacts >= 0 ? `, ${impacts} impact${impacts === 1 ? "" : "s"}` : ""));
-  const level = given.levels[ground] === "none" ? "" : ` (${given.levels[ground]})`;
-  told.push(given.grounds[ground] + level);
-  if (exponent === -Infinity) told.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) told.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")} per τ`);
+  const notes = [];
+  if (period > 0) notes.push(`repeats after ${period} cycle${period > 1 ? "s" : ""}` + (impacts >= 0 ? `, ${impacts} impact${impacts === 1 ? "" : "s"}` : ""));
+  const level = constants.levels[ground] === "none" ? "" : ` (${constants.levels[ground]})`;
+  notes.push(constants.grounds[ground] + level);
+  if (exponent === -Infinity) notes.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) notes.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")} per τ`);
   const digits = span => Math.min(17, Math.max(4, 3 - Math.floor(Math.log10(span))));
   const place = `T = ${(baseX + x).toPrecision(digits((right - left) / Math.abs(baseX + x)))}, A = ${(baseY + y).toPrecision(digits((top - bottom) / Math.max(Math.abs(baseY + y), 1e-9)))}: `;
-  return [place, strong(given.looks[look] ?? "invalid initial state"), ["", ...told].join("; ")];
+  return [place, strong(constants.looks[look] ?? "invalid initial state"), ["", ...notes].join("; ")];
 }
 
 // ---- verdict, legends and messages
@@ -187,9 +187,9 @@ function grid(name, across, up) {
   return {
     [across]: Array.from(source.look, (_, n) => baseX + at(left, right, n % side)),
     [up]: Array.from(source.look, (_, n) => baseY + at(bottom, top, Math.floor(n / side))),
-    response: Array.from(source.look, look => given.looks[look] ?? ""),
+    response: Array.from(source.look, look => constants.looks[look] ?? ""),
     response_period: source.response_period,
-    evidence: Array.from(source.evidence, ground => given.grounds[ground]),
+    evidence: Array.from(source.evidence, ground => constants.grounds[ground]),
     exponent: source.exponent,
     ...(name === "basin" && { orbit: source.orbit }),
   };
@@ -208,9 +208,9 @@ function scene() {
     displacement: at => -base * Math.cos(frequency * at + Number(fields.phase)), speed: Math.max(period / 1.2, (time[time.length - 1] - time[0]) / 40),
     angles: magnified(angle, critical), moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) };
   clock = time[0] ?? 0;
-  const told = [];
-  if (film.angles > 1.05) told.push(`angle × ${film.angles.toPrecision(2)}`);
-  if (film.moves > 1.05 && base) told.push(`base motion × ${film.moves.toPrecision(2)}`);
-  find("scene-told").textContent = told.join(", ") || "true to scale";
+  const notes = [];
+  if (film.angles > 1.05) notes.push(`angle × ${film.angles.toPrecision(2)}`);
+  if (film.moves > 1.05 && base) notes.push(`base motion × ${film.moves.toPrecision(2)}`);
+  find("scale-note").textContent = notes.join(", ") || "true to scale";
   frame();
 }

@@ -162,13 +162,13 @@ class Attractors(Basins):
 
     def stored(self, results: Results) -> Results:
         """Return the results with their categories and orbits."""
-        found = super().stored(results)
-        states = np.column_stack([found["orbit_angle"], found["orbit_velocity"]])
-        return found | {"orbit": self.orbits.numbers(found["look"], states)}
+        stored = super().stored(results)
+        states = np.column_stack([stored["orbit_angle"], stored["orbit_velocity"]])
+        return stored | {"orbit": self.orbits.numbers(stored["look"], states)}
 
 
 class Orbits:
-    """Orbits found so far, numbered from 0 within each category of `LOOKS`, in order of discovery."""
+    """Orbits so far, numbered from 0 within each category of `LOOKS`, in order of discovery."""
 
     def __init__(self) -> None:
         self.met: dict[int, list[np.ndarray]] = {}

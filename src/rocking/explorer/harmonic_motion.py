@@ -1,14 +1,14 @@
-"""Data of the figures of one motion; every function may run on any thread."""
+"""Contents of the figures of one motion; every function may run on any thread."""
 
 from __future__ import annotations
 
 import math
 from asyncio import CancelledError
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from attrs import frozen
 
 from rocking.explorer.figures import no_image
 from rocking.explorer.harmonic_maps import PERIOD
@@ -22,10 +22,12 @@ from rocking.motion.simulate import simulate
 from rocking.orbits.orbit_diagram import orbit_diagram
 from rocking.plot import motions, style
 from rocking.response.classify import classify
-from rocking.response.spectrum import spectral_density
+from rocking.response.spectrum import Peak, spectral_density
 
 Columns = dict[str, Any]
 Ranges = tuple[float, float, float, float]
+Contents = dict[str, Any]
+"""New contents of a figure: columns by the names of their sources, and its `ranges`, `label`, and more."""
 
 SOON, LATER = 10_000, 100_000
 """Maximum number of cycles of the first classification, and of the second one if the response is undetermined."""
@@ -50,6 +52,8 @@ VALUES, TRANSIENT, KEPT = 240, 200, 32
 """Orbit diagram: parameter values, cycles discarded at each value and cycles recorded."""
 PIECE_HITS = 3e5
 """Approximate number of impacts per part of an orbit diagram. The computation can stop only between two parts."""
+VARIED = {"amplitude": "amplitude A", "period": "period T"}
+"""Labels of the parameter of the orbit diagram."""
 FARTHEST = 1e6
 """Largest angle drawn of a block that overturns. Within a long cycle the angle can exceed the range of doubles."""
 ROOM = 0.06
@@ -74,83 +78,53 @@ def hits_per_cycle(system: System, start: State) -> float:
     return max(hits, 1.0)
 
 
-def crowded(shown: HarmonicView) -> bool:
+def crowded(view: HarmonicView) -> bool:
     """Return whether a cycle has too many impacts for a figure."""
-    return math.isinf(hits_per_cycle(shown.system, shown.start))
+    return math.isinf(hits_per_cycle(view.system, view.start))
 
 
-def affordable(shown: HarmonicView, cycles: int, hits: float = SOON_HITS) -> int:
+def affordable(view: HarmonicView, cycles: int, hits: float = SOON_HITS) -> int:
     """Reduce a number of cycles to those that one figure may take; at least 1."""
-    return int(max(min(cycles, hits / hits_per_cycle(shown.system, shown.start)), 1))
+    return int(max(min(cycles, hits / hits_per_cycle(view.system, view.start)), 1))
 
 
-@frozen(eq=False)
-class Traces:
-    """Time history and phase portrait of a motion, with the ranges of the axes."""
-
-    history: Columns
-    portrait: Columns
-    hits: Columns
-    spans: dict[str, Ranges]
-
-
-@frozen(eq=False)
-class Spectrum:
-    """Power spectral density with named lines; `why` gives the reason if there is none."""
-
-    line: Columns
-    names: Columns
-    ranges: Ranges
-    why: str = ""
-
-
-@frozen(eq=False)
-class Drawn:
-    """Section to draw: single points or an image of their density, the periodic orbit, all points, the cycles shown."""
-
-    points: Columns
-    dense: Columns
-    orbit: Columns
-    all: Columns
-    ranges: Ranges
-    label: str
-
-
-def verdict(shown: HarmonicView) -> Verdict:
+def verdict(view: HarmonicView) -> Verdict:
     """Classify the response."""
-    return classify(shown.system, shown.start, affordable(shown, SOON), PERIOD)
+    return classify(view.system, view.start, affordable(view, SOON), PERIOD)
 
 
-def traces(shown: HarmonicView) -> Traces:
-    """Simulate the cycles shown."""
+def traces(view: HarmonicView) -> dict[str, Contents]:
+    """Return the time history and the phase portrait of the cycles shown."""
     try:
-        if crowded(shown):
+        if crowded(view):
             raise TooManyEvents(NO_SPECTRUM)
-        motion, begin = _motion(shown)
+        motion, begin = _motion(view)
     except TooManyEvents:
         nothing: Columns = {"time": [], "angle": [], "velocity": []}
-        empty: Columns = {"angle": [], "velocity": [], "colour": []}
-        plain = (0.0, 1.0, -1.0, 1.0)
-        return Traces(nothing, nothing, empty, {"history": plain, "portrait": plain})
+        hits: Columns = {"angle": [], "velocity": [], "colour": []}
+        empty = {"ranges": (0.0, 1.0, -1.0, 1.0), "line": nothing}
+        return {"history": empty, "portrait": empty | {"hits": hits}}
     start, stop = _shown_of(motion)
     trace = np.array(motions.trace(motion, start, stop))
     time, angle, velocity = trace[:, np.abs(trace[1]) <= FARTHEST]
     events = motions.inside(motion.events, start, stop)
-    hits = events[np.isin(events["kind"], ("impact", "brace"))]
-    colours = np.where(hits["kind"] == "brace", style.BRACE, style.IMPACT)
+    struck = events[np.isin(events["kind"], ("impact", "brace"))]
+    colours = np.where(struck["kind"] == "brace", style.BRACE, style.IMPACT)
     time = time + begin
-    return Traces(
-        history={"time": time, "angle": angle, "velocity": velocity},
-        portrait={"angle": angle, "velocity": velocity},
-        hits={"angle": hits["angle"], "velocity": hits["after"], "colour": colours.tolist()},
-        spans={
-            "history": (time[0], max(time[-1], time[0] + MARGIN), *_around(angle)),
-            "portrait": (*_around(angle), *_around(velocity)),
+    return {
+        "history": {
+            "ranges": (time[0], max(time[-1], time[0] + MARGIN), *_around(angle)),
+            "line": {"time": time, "angle": angle, "velocity": velocity},
         },
-    )
+        "portrait": {
+            "ranges": (*_around(angle), *_around(velocity)),
+            "line": {"angle": angle, "velocity": velocity},
+            "hits": {"angle": struck["angle"], "velocity": struck["after"], "colour": colours.tolist()},
+        },
+    }
 
 
-def _motion(shown: HarmonicView) -> tuple[Motion, float]:
+def _motion(view: HarmonicView) -> tuple[Motion, float]:
     """Simulate the cycles shown; the cycles before them are not recorded.
 
     Returns
@@ -158,12 +132,12 @@ def _motion(shown: HarmonicView) -> tuple[Motion, float]:
     tuple of (Motion, float)
         Motion with all events, and its initial time τ.
     """
-    system, start, before = shown.system, shown.start, 0
-    if shown.first:
-        earlier = simulate(system, start, cycles=affordable(shown, shown.first), record="none")
+    system, start, before = view.system, view.start, 0
+    if view.first:
+        earlier = simulate(system, start, cycles=affordable(view, view.first), record="none")
         if earlier.outcome is not Outcome.OVERTURNED and _is_start(earlier.final):
             start, before = earlier.final, earlier.cycles
-    return simulate(system, start, cycles=affordable(shown, shown.cycles)), before * shown.period
+    return simulate(system, start, cycles=affordable(view, view.cycles)), before * view.period
 
 
 def _is_start(state: State) -> bool:
@@ -185,49 +159,61 @@ def _around(values: np.ndarray) -> tuple[float, float]:
     return low - room, high + room
 
 
-def spectrum(shown: HarmonicView) -> Spectrum:
-    """Return the power spectral density after the transient, over multiples of the forcing frequency."""
+def spectrum(view: HarmonicView) -> Contents:
+    """Return the power spectral density after the transient, over multiples of the forcing frequency.
+
+    Its strongest lines have names. If there is no spectrum, `why` gives the reason.
+    """
     try:
-        if crowded(shown):
+        if crowded(view):
             raise TooManyEvents(NO_SPECTRUM)
-        motion = simulate(shown.system, shown.start, cycles=affordable(shown, SETTLING + RECORD))
+        motion = simulate(view.system, view.start, cycles=affordable(view, SETTLING + RECORD))
         density = spectral_density(motion, transient=SETTLING)
     except ValueError:
         nothing: Columns = {"frequency": [], "density": []}
-        return Spectrum(nothing, nothing | {"name": []}, (0.0, HIGHEST, 1e-6, 1.0), NO_SPECTRUM)
+        names = nothing | {"name": []}
+        return {"ranges": (0.0, HIGHEST, 1e-6, 1.0), "line": nothing, "names": names, "why": NO_SPECTRUM}
     multiples = density.forcing_multiples
     kept = (multiples > 0) & (multiples <= HIGHEST) & (density.density > 0)
     heights = density.density[kept]
     top = float(heights.max()) if heights.size else 1.0
     bottom = top * 10.0**-DECADES  # with fewer decades, the labels of all of them overlap
+    return {
+        "ranges": (0.0, HIGHEST, bottom, top * (top / bottom) ** 0.18),
+        "line": {"frequency": multiples[kept], "density": heights},
+        "names": _names(density.peaks, view.period),
+        "why": "",
+    }
+
+
+def _names(peaks: Iterable[Peak], period: float) -> Columns:
+    """Return the names of the strongest lines that do not overlap, and their places."""
     named: list[tuple[float, float, str]] = []
-    for peak in density.peaks:
-        multiple = peak.frequency * shown.period
+    for peak in peaks:
+        multiple = peak.frequency * period
         clear = all(
             abs(multiple - across) >= NAME_ACROSS or abs(math.log10(peak.height / up)) >= NAME_UP
             for across, up, _ in named
         )
         if peak.name and multiple <= HIGHEST * 0.97 and clear and len(named) < NAMES:
             named.append((multiple, peak.height, peak.name))
-    names = {key: [each[k] for each in named] for k, key in enumerate(("frequency", "density", "name"))}
-    ranges = (0.0, HIGHEST, bottom, top * (top / bottom) ** 0.18)
-    return Spectrum({"frequency": multiples[kept], "density": heights}, names, ranges)
+    return {key: [each[k] for each in named] for k, key in enumerate(("frequency", "density", "name"))}
 
 
 class Section:
     """Poincaré section that grows by continuing the motion."""
 
-    def __init__(self, shown: HarmonicView) -> None:
-        self.shown, self.last = shown, shown.start
+    def __init__(self, view: HarmonicView) -> None:
+        self.view, self.last = view, view.start
         self.points = np.empty((0, 2))
         self.ended = ""
 
     def grow(self, cycles: int) -> None:
         """Add cycles, unless the block overturned, rests or has too many impacts."""
-        if crowded(self.shown) or len(self.points) + cycles > affordable(self.shown, LATER, LATER_HITS):
+        if crowded(self.view) or len(self.points) + cycles > affordable(self.view, LATER, LATER_HITS):
             self.ended = "too many impacts"
             return
-        motion = simulate(self.shown.system, self.last, cycles=cycles, record="section")
+        motion = simulate(self.view.system, self.last, cycles=cycles, record="section")
         self.points = np.concatenate([self.points, motion.section()[:-1]])
         self.last = motion.final
         if motion.outcome is not Outcome.BOUNDED:
@@ -235,32 +221,38 @@ class Section:
         elif not _is_start(self.last):
             self.ended = "too fast"
 
-    def drawn(self, period: int | None) -> Drawn:
-        """Return the section without the transient, with the periodic orbit that the motion reaches."""
+    def drawn(self, period: int | None) -> Contents:
+        """Return the section without the transient: single points, or an image of their density.
+
+        With it come the periodic orbit that the motion reaches, and all points, for the table.
+        """
         omitted = self._omitted()
         points, last = self.points[omitted:], self.points[len(self.points) - (period or 0) :]
-        label = _section_label(omitted, len(self.points), self.ended)
-        spans = *_around(points[:, 0]), *_around(points[:, 1])
-        orbit = {"angle": last[:MAX_RINGS, 0], "velocity": last[:MAX_RINGS, 1]}
-        everything = {"angle": points[:, 0].copy(), "velocity": points[:, 1].copy()}
-        places, first, counts = np.unique(_cells(points, spans), return_index=True, return_counts=True)
+        ranges = *_around(points[:, 0]), *_around(points[:, 1])
+        drawn = {
+            "ranges": ranges,
+            "label": _section_label(omitted, len(self.points), self.ended),
+            "orbit": {"angle": last[:MAX_RINGS, 0], "velocity": last[:MAX_RINGS, 1]},
+            "answers": {"angle": points[:, 0].copy(), "velocity": points[:, 1].copy()},
+        }
+        places, first, counts = np.unique(_cells(points, ranges), return_index=True, return_counts=True)
         if len(places) <= SINGLE:
             single = {"angle": points[first, 0], "velocity": points[first, 1]}
-            return Drawn(single, no_image(), orbit, everything, spans, label)
+            return drawn | {"points": single, "dense": no_image()}
         image = np.zeros(CELLS * CELLS, np.uint8)
         image[places] = np.minimum(1 + np.log2(counts), 8)
-        left, right, bottom, top = spans
+        left, right, bottom, top = ranges
         dense = {"image": [image.reshape(CELLS, CELLS)], "x": [left], "y": [bottom]}
         dense |= {"w": [right - left], "h": [top - bottom]}
-        return Drawn({"angle": [], "velocity": []}, dense, orbit, everything, spans, label)
+        return drawn | {"points": {"angle": [], "velocity": []}, "dense": dense}
 
     def _omitted(self) -> int:
         """Return the number of cycles omitted as transient: a tenth of all, at least `TRANSIENT`, at most nine tenths.
 
         A motion that overturned or rests is all transient and is shown whole. An undamped motion has no transient.
         """
-        braced = self.shown.brace_angle is not None
-        undamped = self.shown.restitution == 1.0 and not (braced and self.shown.brace_restitution < 1.0)
+        braced = self.view.brace_angle is not None
+        undamped = self.view.restitution == 1.0 and not (braced and self.view.brace_restitution < 1.0)
         if undamped or self.ended in ("overturned", "at rest"):
             return 0
         computed = len(self.points)
@@ -280,43 +272,47 @@ def _cells(points: np.ndarray, spans: Ranges) -> np.ndarray:
     return rows * CELLS + columns
 
 
-def diagram(shown: HarmonicView, stop: np.ndarray) -> tuple[Columns, Ranges]:
-    """Return the points of the orbit diagram along an axis of the map, and the ranges of its axes.
+def diagram(view: HarmonicView, stop: np.ndarray) -> Contents:
+    """Return the orbit diagram along an axis of the map; it is empty if a value has too many impacts.
 
     Every run starts from the initial state. CancelledError: if another thread has set `stop[0]`.
     """
-    span = shown.varied
+    span = view.varied
     values = np.linspace(span.low, span.high, VALUES)
-    start: State = shown.start
-    nothing: Columns = {"value": [], "angle": []}
-    ranges = span.low, span.high, *_around(np.empty(0))
+    columns: Columns = {"value": [], "angle": []}
+    if (angles := _diagram_angles(view, values, stop)) is not None:
+        kept = np.isfinite(angles)
+        columns = {"value": np.broadcast_to(values[:, None], angles.shape)[kept], "angle": angles[kept]}
+    ranges = span.low, span.high, *_around(np.asarray(columns["angle"]))
+    return {"ranges": ranges, "label": VARIED[view.vary], "points": columns}
+
+
+def _diagram_angles(view: HarmonicView, values: np.ndarray, stop: np.ndarray) -> np.ndarray | None:
+    """Return the angles of the orbit diagram (values, cycles); None if a value has too many impacts."""
     hits = 1.0
-    for each in (shown, *(shown.at(value) for value in (span.low, values[VALUES // 2], span.high))):
+    for each in (view, *map(view.at, (values[0], values[VALUES // 2], values[-1]))):
         if stop[0]:
             raise CancelledError
-        hits = max(hits, hits_per_cycle(each.system, start))
+        hits = max(hits, hits_per_cycle(each.system, view.start))
         if math.isinf(hits):
-            return nothing, ranges
+            return None
     share = min(LATER_HITS / (hits * VALUES * (TRANSIENT + KEPT)), 1.0)
-    settle, record = int(share * TRANSIENT), max(int(share * KEPT), 1)
-    arguments: dict[str, Any] = {"sweep": "rest", "transient": settle, "cycles": record}
+    transient, cycles = int(share * TRANSIENT), max(int(share * KEPT), 1)
+    arguments: dict[str, Any] = {"sweep": "rest", "transient": transient, "cycles": cycles}
     pieces = []
     for piece in np.array_split(
-        values, min(math.ceil(hits * VALUES * (settle + record) / PIECE_HITS), VALUES)
+        values, min(math.ceil(hits * VALUES * (transient + cycles) / PIECE_HITS), VALUES)
     ):
         if stop[0]:
             raise CancelledError
         try:
-            found = orbit_diagram(shown.system, start, **arguments | {shown.vary: piece})
+            piece_diagram = orbit_diagram(view.system, view.start, **arguments | {view.vary: piece})
         except TooManyEvents:
-            return nothing, ranges
-        pieces.append(found.points[0, :, :, 0])
-    angles = np.concatenate(pieces)
-    kept = np.isfinite(angles)
-    columns = {"value": np.broadcast_to(values[:, None], angles.shape)[kept], "angle": angles[kept]}
-    return columns, (span.low, span.high, *_around(columns["angle"]))
+            return None
+        pieces.append(piece_diagram.points[0, :, :, 0])
+    return np.concatenate(pieces)
 
 
-def judge_longer(shown: HarmonicView) -> Verdict:
+def longer_verdict(view: HarmonicView) -> Verdict:
     """Classify again, with up to `LATER` cycles, a response that is undetermined after `SOON` cycles."""
-    return classify(shown.system, shown.start, affordable(shown, LATER, LATER_HITS), PERIOD)
+    return classify(view.system, view.start, affordable(view, LATER, LATER_HITS), PERIOD)

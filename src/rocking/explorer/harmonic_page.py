@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
-from attrs import field, frozen
 
 from rocking.explorer import figures, harmonic_maps, presets, texts
 from rocking.explorer import harmonic_motion as motion
@@ -35,16 +34,7 @@ MAP_LIMITS = Span(*PERIOD.range), Span(*AMPLITUDE.range)
 BASIN_LIMITS = Span(*ANGLE.range), Span(*VELOCITY.range)
 MAP_LABELS = "period T", "amplitude A"
 BASIN_LABELS = "initial angle Θ₀", "initial velocity Θ′₀"
-VARIED = {"amplitude": "amplitude A", "period": "period T"}
 SHAKEN = ("restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution", "critical_angle")
-
-
-@frozen(eq=False)
-class Part:
-    """New contents of figures, by name, and the function that sends the texts that belong to them."""
-
-    figures: dict[str, dict[str, Any]]
-    tell: Callable[[], None] = field(default=lambda: None)
 
 
 class HarmonicSession(Session):
@@ -82,7 +72,7 @@ class HarmonicSession(Session):
         if what == "metres":
             return in_metres(self.view, typed), {}
         if what == "case" and typed.get("name") in presets.BY_NAME:
-            return presets.BY_NAME[typed["name"]].shown, {}
+            return presets.BY_NAME[typed["name"]].view, {}
         return super().answer(what, typed)
 
     # axes and marks
@@ -152,57 +142,33 @@ class HarmonicSession(Session):
 
     async def respond(self, view: HarmonicView, stop: np.ndarray) -> None:
         """Draw all figures of one system at once, then start their refinement."""
-        section = motion.Section(view)
+        section, soon = motion.Section(view), self.workers.soon
         async with asyncio.TaskGroup() as group:  # if one of them fails, the others end
-            verdict = group.create_task(self.workers.soon(motion.verdict, view))
-            basin = group.create_task(self.workers.soon(self._first_basin, view, stop))
-            parts = [
-                self._traces(view),
-                self._spectrum(view),
-                self._section(section, verdict),
-                self._basin_part(view, basin),
-                self._verdict(view, verdict),
-            ]
-            tasks = [group.create_task(part) for part in parts]
-        await self.change(self._draw_parts, [task.result() for task in tasks])
+            verdict = group.create_task(soon(motion.verdict, view))
+            basin = group.create_task(soon(self._first_basin, view, stop))
+            traces = group.create_task(soon(motion.traces, view))
+            spectrum = group.create_task(soon(motion.spectrum, view))
+            points = group.create_task(self._first_points(section, verdict))
+
+        def draw() -> None:
+            picture = basin.result()[1]
+            drawn = {"spectrum": spectrum.result(), "section": points.result()}
+            self.link.draw(**traces.result(), **drawn, basin=_drawn_map(picture, view.basin_axes))
+            self._send_attractors(picture)
+            self._send_verdict(view, verdict.result())
+
+        await self.change(draw)
         self.jobs.start("section", self._grow, section, verdict.result().period)
         self.jobs.start("basin", self._finish_basin, view, basin.result()[0])
         if verdict.result().kind is Kind.UNDETERMINED and not motion.crowded(view):
-            self.jobs.start("judge", self._judge_longer, view)
+            self.jobs.start("verdict", self._continue_verdict, view)
 
-    def _draw_parts(self, parts: Sequence[Part]) -> None:
-        self.link.draw(**{name: drawn for part in parts for name, drawn in part.figures.items()})
-        for part in parts:
-            part.tell()
-
-    async def _traces(self, view: HarmonicView) -> Part:
-        traces = await self.workers.soon(motion.traces, view)
-        history = {"ranges": traces.spans["history"], "line": traces.history}
-        portrait = {"ranges": traces.spans["portrait"], "line": traces.portrait, "hits": traces.hits}
-        return Part({"history": history, "portrait": portrait})
-
-    async def _spectrum(self, view: HarmonicView) -> Part:
-        found = await self.workers.soon(motion.spectrum, view)
-        return Part(
-            {"spectrum": {"ranges": found.ranges, "line": found.line, "names": found.names, "why": found.why}}
-        )
-
-    async def _section(self, section: motion.Section, verdict: Awaitable[Verdict]) -> Part:
-        """Return the first points; those of a periodic orbit are marked."""
+    async def _first_points(self, section: motion.Section, verdict: Awaitable[Verdict]) -> motion.Contents:
+        """Return the first points of a section; those of a periodic orbit are marked."""
         await self.workers.soon(section.grow, GROWTH[0])
-        period = (await verdict).period
-        return Part({"section": _drawn_section(await self.workers.soon(section.drawn, period))})
+        return await self.workers.soon(section.drawn, (await verdict).period)
 
-    async def _basin_part(self, view: HarmonicView, basin: Awaitable[tuple[Refinement, Picture]]) -> Part:
-        _, picture = await basin
-        drawn = _drawn_map(picture, view.basin_axes)
-        return Part({"basin": drawn}, lambda: self._tell_attractors(picture))
-
-    async def _verdict(self, view: HarmonicView, verdict: Awaitable[Verdict]) -> Part:
-        found = await verdict
-        return Part({}, lambda: self._tell_verdict(view, found))
-
-    def _tell_verdict(self, view: HarmonicView, verdict: Verdict) -> None:
+    def _send_verdict(self, view: HarmonicView, verdict: Verdict) -> None:
         self.link.send("verdict", texts.verdict(verdict, view.block))
 
     async def _grow(self, section: motion.Section, period: int | None, stop: np.ndarray) -> None:
@@ -213,10 +179,13 @@ class HarmonicSession(Session):
             await asyncio.sleep(BREATH)
             await self.workers.later(section.grow, cycles)
             drawn = await self.workers.later(section.drawn, period)
-            await self.change(lambda drawn=drawn: self.link.draw(section=_drawn_section(drawn)))
+            await self.change(self._draw_section, drawn)
 
-    async def _judge_longer(self, view: HarmonicView, stop: np.ndarray) -> None:
-        await self.change(self._tell_verdict, view, await self.workers.later(motion.judge_longer, view))
+    def _draw_section(self, drawn: motion.Contents) -> None:
+        self.link.draw(section=drawn)
+
+    async def _continue_verdict(self, view: HarmonicView, stop: np.ndarray) -> None:
+        await self.change(self._send_verdict, view, await self.workers.later(motion.longer_verdict, view))
 
     # the basin
 
@@ -247,9 +216,9 @@ class HarmonicSession(Session):
 
     def _draw_basin(self, view: HarmonicView, picture: Picture) -> None:
         self.link.draw(basin=_drawn_map(picture, view.basin_axes))
-        self._tell_attractors(picture)
+        self._send_attractors(picture)
 
-    def _tell_attractors(self, picture: Picture) -> None:
+    def _send_attractors(self, picture: Picture) -> None:
         self.link.send("basin", {"legend": texts.attractors(harmonic_maps.counts(picture))})
 
     # the diagram
@@ -257,9 +226,11 @@ class HarmonicSession(Session):
     async def draw_diagram(self, view: HarmonicView, stop: np.ndarray) -> None:
         """Draw the orbit diagram along an axis of the map, after the other figures of the selection."""
         await self.jobs.over("response")
-        columns, ranges = await self.workers.later(motion.diagram, view, stop)
-        drawn = {"ranges": ranges, "label": VARIED[view.vary], "points": columns}
-        await self.change(lambda: self.link.draw(diagram=drawn))
+        drawn = await self.workers.later(motion.diagram, view, stop)
+        await self.change(self._draw_diagram, drawn)
+
+    def _draw_diagram(self, drawn: motion.Contents) -> None:
+        self.link.draw(diagram=drawn)
 
     JOBS = (
         Job("map", refine_map, ("periods", "amplitudes", *SHAKEN), ("map",)),
@@ -268,7 +239,7 @@ class HarmonicSession(Session):
             respond,
             ("amplitude", "period", *SHAKEN, "first", "cycles", "height", "width"),
             ("section", "basin", "verdict"),
-            ends=("section", "basin", "judge"),
+            ends=("section", "basin", "verdict"),
         ),
         Job("basin", refine_basin, ("angles", "velocities"), ("basin",), within="response"),
         Job("diagram", draw_diagram, ("vary", "varied", "other", *SHAKEN)),
@@ -290,11 +261,6 @@ def _drawn_map(picture: Picture, axes: Axes) -> dict[str, Any]:
     """Return the image of a map, and its results for readout and table if they can be read at each point."""
     drawn: dict[str, Any] = {"image": axes.image(harmonic_maps.colours(picture))}
     return drawn | ({"answers": harmonic_maps.answers(picture)} if picture.whole else {})
-
-
-def _drawn_section(drawn: motion.Drawn) -> dict[str, Any]:
-    columns = {"points": drawn.points, "dense": drawn.dense, "orbit": drawn.orbit, "answers": drawn.all}
-    return {"ranges": drawn.ranges, "label": drawn.label, **columns}
 
 
 PAGE = Page(

@@ -68,7 +68,7 @@ class Page:
         return {
             "style": f":root {{ {rules} }}\n{''.join(map(text_of, self.styles))}",
             "script": text_of("common.js") + text_of(f"{self.name}.js"),
-            "given": json.dumps(self.constants, ensure_ascii=False).replace("<", "\\u003c"),
+            "constants": json.dumps(self.constants, ensure_ascii=False).replace("<", "\\u003c"),
             **self.variables,
         }
 

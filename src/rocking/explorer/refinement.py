@@ -135,17 +135,17 @@ class Refinement:
             due = self._grid(stride) & ~self._grid(2 * stride)
             grids.append(self._ordered(due if grids else due | again))
         ends = np.cumsum([grid.size for grid in grids])
-        complete, told, shown = 0, 0, time.perf_counter()
+        complete, read, drawn = 0, 0, time.perf_counter()
         async for computed in self._compute(np.concatenate(grids)):
             while complete < len(grids) and computed >= ends[complete]:
                 complete += 1
-            if complete < len(grids) and time.perf_counter() - shown <= SHOWN_EVERY:
+            if complete < len(grids) and time.perf_counter() - drawn <= SHOWN_EVERY:
                 continue
-            stage = complete - 1 if complete > told else complete  # a complete grid first: it can be read
-            told = complete
+            stage = complete - 1 if complete > read else complete  # a complete grid first: it can be read
+            read = complete
             settled = int(min(computed, ends[stage]) - ends[stage]) + grids[stage].size
             yield self._picture(STRIDES[stage], settled, grids[stage].size)
-            shown = time.perf_counter()
+            drawn = time.perf_counter()
 
     def _grid(self, stride: int) -> np.ndarray:
         """Return the mask of every `stride`-th point along each side."""

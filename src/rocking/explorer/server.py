@@ -230,9 +230,9 @@ def _cookie(request: HTTPServerRequest) -> str:
     return f"rocking-{split_host_and_port(request.host)[1] or 80}"
 
 
-def _same(given: str, token: str) -> bool:
+def _same(value: str, token: str) -> bool:
     """Compare in a time that does not depend on the first difference."""
-    return secrets.compare_digest(given.encode(), token.encode())
+    return secrets.compare_digest(value.encode(), token.encode())
 
 
 class Entrance(RequestHandler):
@@ -250,14 +250,14 @@ class Entrance(RequestHandler):
         """Answer any address."""
         query = parse_qsl(self.request.query, keep_blank_values=True)
         rest = [(name, value) for name, value in query if name != TOKEN]
-        given = self.get_query_argument(TOKEN, "").rpartition(f"{TOKEN}=")[2]  # it may be the whole address
+        value = self.get_query_argument(TOKEN, "").rpartition(f"{TOKEN}=")[2]  # it may be the whole address
         opens = knows(self.request, self.token)
-        if _same(given, self.token):
+        if _same(value, self.token):
             self.set_cookie(_cookie(self.request), self.token, httponly=True, samesite="Strict")
             opens = True
         if not opens and self.request.headers.get("Sec-Fetch-Site") != "cross-site":
             self.set_status(403)
-            self.finish(_form().render(rest=rest, wrong=bool(given)))
+            self.finish(_form().render(rest=rest, wrong=bool(value)))
             return
         self.finish(_form().render(again=urlencode(rest, safe=":,/")))
 

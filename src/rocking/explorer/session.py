@@ -29,15 +29,15 @@ _numbers = count()
 
 
 class Link(DataModel):
-    """Shared model of page and server: the page writes `asked` and `file`, the server all other properties.
+    """Shared model of page and server: the page writes `request` and `file`, the server all other properties.
 
     Each message is a line of JSON.
     """
 
-    asked = String(default="")
+    request = String(default="")
     file = Anything()
     drawn = Anything()
-    shown = String(default="")
+    view = String(default="")
     verdict = String(default="")
     legend = String(default="")
     progress = String(default="")
@@ -68,15 +68,15 @@ class Link(DataModel):
 def message(text: str) -> dict[str, Any]:
     """Parse a message of the page: the request `what` and its `fields` as text. Raise Refused for anything else."""
     try:
-        asked = json.loads(text) if len(text) <= MAX_LENGTH else {}
-        whole = isinstance(asked["what"], str) and all(
-            isinstance(each, str) for each in asked["fields"].values()
+        request = json.loads(text) if len(text) <= MAX_LENGTH else {}
+        whole = isinstance(request["what"], str) and all(
+            isinstance(each, str) for each in request["fields"].values()
         )
     except (ValueError, RecursionError, TypeError, KeyError, AttributeError):
         whole = False
     if not whole:
         raise Refused({"page": STRANGE})
-    return asked
+    return request
 
 
 @frozen
@@ -119,7 +119,7 @@ class Session:
         self.view: Any = self.VIEW()
         self.opened = False
         hear = self.in_turn(self.hear)
-        self.link.on_change("asked", lambda _name, _before, text: hear(text))
+        self.link.on_change("request", lambda _name, _before, text: hear(text))
         figures = self.figures()  # with handlers of events, or the document ignores the events
         with document.models.freeze():  # otherwise the document visits all models once per root
             for root in (*figures, self.link):
@@ -164,11 +164,11 @@ class Session:
     def hear(self, text: str) -> None:
         """Carry out a message of the page. An invalid one returns one sentence per field and leaves the view unchanged."""
         try:
-            asked = message(text)
+            request = message(text)
         except Refused as refusal:
             self.link.refuse(**refusal.fields)
         else:
-            self.request(asked["what"], asked["fields"], push=asked.get("push") == "yes")
+            self.request(request["what"], request["fields"], push=request.get("push") == "yes")
 
     def request(self, what: str, typed: dict[str, str], *, push: bool) -> None:
         """Carry out a request."""
@@ -208,7 +208,7 @@ class Session:
         renewed = {name for job in started for name in job.renews}
         parts = {"address": new.address, "fields": new.fields, "push": push}
         void = {"moved": "verdict" in renewed, "renewed": sorted(renewed - {"verdict"})}
-        self.link.send("shown", parts | void | self.description())
+        self.link.send("view", parts | void | self.description())
         for job in started:
             self.jobs.end(*job.ends)
             self.jobs.start(job.name, job.work, self, new)
@@ -218,9 +218,9 @@ class Session:
     def in_turn(self, act: Callable[[Value], None]) -> Callable[[Value], None]:
         """Return a function that calls `act` later, in the event loop, with the lock of the document held."""
 
-        def later(given: Value) -> None:
+        def later(value: Value) -> None:
             async def acting() -> None:
-                act(given)
+                act(value)
 
             self._await(acting)
 

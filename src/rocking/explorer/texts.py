@@ -24,28 +24,28 @@ MIN_SHARE = 1e-4
 """Smallest area fraction in a legend."""
 
 
-def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
+def verdict(result: Verdict, block: Block | None) -> dict[str, Any]:
     """Return a verdict for the page: response type, colour, named values and evidence."""
-    forcing = found.system.periodic
+    forcing = result.system.periodic
     facts: Facts = [] if block is None else _physical(forcing, block)
-    if found.period is not None:
-        symmetry = "symmetric" if found.symmetric else "asymmetric"
-        seconds = "" if block is None else f" ({block.seconds(found.period * forcing.period):.4g} s)"
-        facts.append(("period", f"{counted(found.period, 'cycle')}, {symmetry}{seconds}"))
-        hits = [("impacts", found.impacts_per_period), ("brace impacts", found.brace_hits_per_period)]
+    if result.period is not None:
+        symmetry = "symmetric" if result.symmetric else "asymmetric"
+        seconds = "" if block is None else f" ({block.seconds(result.period * forcing.period):.4g} s)"
+        facts.append(("period", f"{counted(result.period, 'cycle')}, {symmetry}{seconds}"))
+        hits = [("impacts", result.impacts_per_period), ("brace impacts", result.brace_hits_per_period)]
         facts += [(f"{what} per period", impacts(number)) for what, number in hits if number != 0]
-    if found.kind != Kind.OVERTURNED:
-        facts.append(("largest |Θ|", f"{found.peak:.6g}" + _reach(found.peak, block)))
-    if found.multipliers is not None:
-        facts.append(("Floquet multipliers", _pair(*found.multipliers)))
-    if found.exponent is not None:
-        facts.append(("largest Lyapunov exponent λ₁", exponent(found.exponent, found.exponent_error)))
-    facts.append(("simulated", counted(found.cycles, "cycle")))
+    if result.kind != Kind.OVERTURNED:
+        facts.append(("largest |Θ|", f"{result.peak:.6g}" + _reach(result.peak, block)))
+    if result.multipliers is not None:
+        facts.append(("Floquet multipliers", _pair(*result.multipliers)))
+    if result.exponent is not None:
+        facts.append(("largest Lyapunov exponent λ₁", exponent(result.exponent, result.exponent_error)))
+    facts.append(("simulated", counted(result.cycles, "cycle")))
     return {
-        "kind": str(found.kind),
-        "colour": style.look_of(found).colour,
+        "kind": str(result.kind),
+        "colour": style.look_of(result).colour,
         "facts": facts,
-        "evidence": str(found.evidence),
+        "evidence": str(result.evidence),
     }
 
 
@@ -126,32 +126,32 @@ def _entry(name: str, colour: str, look: style.Look, share: float) -> dict[str, 
     }
 
 
-def python(shown: HarmonicView) -> str:
+def python(view: HarmonicView) -> str:
     """Return Python code that reproduces the view."""
     lines = ["import numpy as np", "import rocking as rk", ""]
-    phase = "" if shown.phase == 0.0 else f", phase={shown.phase!r}"
+    phase = "" if view.phase == 0.0 else f", phase={view.phase!r}"
     braces = ""
-    if shown.brace_angle is not None:
-        braces = f", braces=rk.Braces({shown.brace_angle!r}, {shown.brace_restitution!r})"
-    angle = "" if shown.critical_angle is None else f", critical_angle={shown.critical_angle!r}"
+    if view.brace_angle is not None:
+        braces = f", braces=rk.Braces({view.brace_angle!r}, {view.brace_restitution!r})"
+    angle = "" if view.critical_angle is None else f", critical_angle={view.critical_angle!r}"
     lines += [
-        f"forcing = rk.Harmonic({shown.amplitude!r}, period={shown.period!r}{phase})",
-        f"system = rk.System(forcing, restitution={shown.restitution!r}{braces}{angle})",
-        f"start = rk.State({shown.angle!r}, {shown.velocity!r})",
+        f"forcing = rk.Harmonic({view.amplitude!r}, period={view.period!r}{phase})",
+        f"system = rk.System(forcing, restitution={view.restitution!r}{braces}{angle})",
+        f"start = rk.State({view.angle!r}, {view.velocity!r})",
         "print(rk.classify(system, start))",
-        f"motion = rk.simulate(system, start, cycles={shown.first + shown.cycles})",
-        f"basin = rk.basin_map(system, angle={_axis(shown.angles)}, velocity={_axis(shown.velocities)}, boundary_runs=0)",
-        f"diagram = rk.orbit_diagram(system, start, {shown.vary}={_axis(shown.varied)})",
-        "found = rk.parametric_map(",
+        f"motion = rk.simulate(system, start, cycles={view.first + view.cycles})",
+        f"basin = rk.basin_map(system, angle={_axis(view.angles)}, velocity={_axis(view.velocities)}, boundary_runs=0)",
+        f"diagram = rk.orbit_diagram(system, start, {view.vary}={_axis(view.varied)})",
+        "responses = rk.parametric_map(",
         "    system,",
         "    start,",
-        f"    amplitude={_axis(shown.amplitudes)},",
-        f"    period={_axis(shown.periods)},",
+        f"    amplitude={_axis(view.amplitudes)},",
+        f"    period={_axis(view.periods)},",
         ")",
     ]
-    if shown.block is not None:
+    if view.block is not None:
         lines.insert(
-            3, f"block = rk.Block({shown.height!r}, {shown.width!r}, restitution={shown.restitution!r})"
+            3, f"block = rk.Block({view.height!r}, {view.width!r}, restitution={view.restitution!r})"
         )
     return "\n".join(lines)
 
@@ -160,35 +160,35 @@ def _axis(span: Any) -> str:
     return f"np.linspace({span.low!r}, {span.high!r}, 101)"
 
 
-def commands(shown: HarmonicView) -> str:
+def commands(view: HarmonicView) -> str:
     """Return commands for verdict, motion and map of the view; with a block in SI units."""
     usual = ("phase", "angle", "velocity", "brace_angle", "brace_restitution")
-    named = [name for name in usual if name in shown.fixed and getattr(shown, name) != getattr(DEFAULT, name)]
-    block = shown.block
+    named = [name for name in usual if name in view.fixed and getattr(view, name) != getattr(DEFAULT, name)]
+    block = view.block
     if block is None or block.restitution != block.housner_restitution:
         named = ["restitution", *named]
-    if block is None and shown.critical_angle is not None:
+    if block is None and view.critical_angle is not None:
         named.append("critical_angle")
-    rest = "".join(f" --{name.replace('_', '-')}={written(getattr(shown, name))}" for name in named)
-    if block is not None and shown.critical_angle is not None:
+    rest = "".join(f" --{name.replace('_', '-')}={written(getattr(view, name))}" for name in named)
+    if block is not None and view.critical_angle is not None:
         rest += " --model full"
-    point, plane = _normalised(shown) if block is None else _in_metres(shown, block)
+    point, plane = _normalised(view) if block is None else _in_metres(view, block)
     return (
         f"rocking classify {point}{rest}\n"
-        f"rocking simulate {point}{rest} --cycles {shown.first + shown.cycles} --plot motion.png\n"
+        f"rocking simulate {point}{rest} --cycles {view.first + view.cycles} --plot motion.png\n"
         f"rocking map {plane}{rest} --plot map.png"
     )
 
 
-def _normalised(shown: HarmonicView) -> tuple[str, str]:
+def _normalised(view: HarmonicView) -> tuple[str, str]:
     """Return the options of the selected forcing and of the map, normalised."""
     return (
-        f"--amplitude {written(shown.amplitude)} --period {written(shown.period)}",
-        f"--amplitude {written(shown.amplitudes)}:101 --period {written(shown.periods)}:101",
+        f"--amplitude {written(view.amplitude)} --period {written(view.period)}",
+        f"--amplitude {written(view.amplitudes)}:101 --period {written(view.periods)}:101",
     )
 
 
-def _in_metres(shown: HarmonicView, block: Block) -> tuple[str, str]:
+def _in_metres(view: HarmonicView, block: Block) -> tuple[str, str]:
     """Return the options of the selected forcing and of the map, in SI units.
 
     The map is over the period in s, because even steps of the frequency are not even steps of the period.
@@ -206,10 +206,10 @@ def _in_metres(shown: HarmonicView, block: Block) -> tuple[str, str]:
         return _digits(period, block.seconds, block.time)
 
     size = f"--height {written(block.height)} --width {written(block.width)}"
-    across = f"{seconds(shown.periods.low)}:{seconds(shown.periods.high)}:101"
-    up = f"{acceleration(shown.amplitudes.low)}:{acceleration(shown.amplitudes.high)}:101"
+    across = f"{seconds(view.periods.low)}:{seconds(view.periods.high)}:101"
+    up = f"{acceleration(view.amplitudes.low)}:{acceleration(view.amplitudes.high)}:101"
     return (
-        f"{size} --acceleration {acceleration(shown.amplitude)} --frequency-hz {hertz(shown.period)}",
+        f"{size} --acceleration {acceleration(view.amplitude)} --frequency-hz {hertz(view.period)}",
         f"{size} --acceleration {up} --period-s {across}",
     )
 
