@@ -186,10 +186,10 @@ def test_full_block_is_in_the_link_the_code_and_the_commands(rocking):
         assert line.count("--critical-angle=0.25") == 1
         code, message, _ = rocking(line.removeprefix("rocking ").replace(":101", ":3"))
         assert (code, message) == (0, "")
-    found = {}
-    exec(texts.python(shown).replace("101)", "3)"), found)
-    assert found["system"] == shown.system
-    assert found["found"].dataset.attrs["critical_angle"] == 0.25
+    names = {}
+    exec(texts.python(shown).replace("101)", "3)"), names)
+    assert names["system"] == shown.system
+    assert names["responses"].dataset.attrs["critical_angle"] == 0.25
 
 
 def test_full_block_in_metres_has_the_critical_angle_of_its_size():
