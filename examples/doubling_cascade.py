@@ -62,6 +62,6 @@ def draw(branches):
 
 
 if __name__ == "__main__":
-    found, points = cascade()
+    result, points = cascade()
     table(points)
-    print(rk.plot.save(draw(found), sys.argv[1] if len(sys.argv) > 1 else "doubling-cascade.png"))
+    print(rk.plot.save(draw(result), sys.argv[1] if len(sys.argv) > 1 else "doubling-cascade.png"))

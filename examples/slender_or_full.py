@@ -36,10 +36,10 @@ def boundaries(factors):
     system = rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), RESTITUTION)
 
     def lowest(**block):
-        found = rk.overturning_spectrum(system, amplitude=levels, frequency=[3.0, 6.0], **block).dataset.sel(
+        result = rk.overturning_spectrum(system, amplitude=levels, frequency=[3.0, 6.0], **block).dataset.sel(
             frequency=3.0
         )
-        overturned = found.outcome == list(rk.Outcome).index(rk.Outcome.OVERTURNED)
+        overturned = result.outcome == list(rk.Outcome).index(rk.Outcome.OVERTURNED)
         return levels[overturned.argmax("amplitude").values]
 
     return lowest() / (lowest(critical_angle=ANGLES) / factors) - 1.0
@@ -51,10 +51,10 @@ def kinds(factors):
 
     def kind(factor, critical_angle=None):
         system = rk.System(rk.Harmonic(2.0, period=1.0), RESTITUTION, critical_angle=critical_angle)
-        found = rk.parametric_map(
+        result = rk.parametric_map(
             system, amplitude=factor * amplitudes, period=periods, max_cycles=1_000
         ).dataset
-        return found.kind.values
+        return result.kind.values
 
     slender = kind(1.0)
     full = [kind(factor, critical_angle=angle) for factor, angle in zip(factors, ANGLES, strict=True)]

@@ -137,7 +137,7 @@ def test_case_of_the_paper_shows_its_figure(visit):
     assert "3 cycles, symmetric" in visitor.text("facts")
     columns = dict(json.loads(visitor.data("history"))[0])
     times = np.array(columns["time"])
-    first, last = case.shown
+    first, last = case.cycles
     period = case.system.forcing.period
     assert times[[0, -1]] == pytest.approx([first * period, last * period])
     angles, _ = case.motion().at(times[::50])

@@ -144,7 +144,7 @@ def test_interrupted_run_leaves_only_whole_files(tmp_path, monkeypatch):
 )
 def test_periodic_motions_repeat_within_the_cycles_shown(case, period, impacts, symmetric):
     motion = case.motion()
-    first, last = case.shown
+    first, last = case.cycles
     assert (last - first) % period == 0
     section = motion.section()[first : last + 1]
     # a difference of 1e-9 is a millionth of the thickness of a line

@@ -15,7 +15,7 @@ import rocking as rk
 from rocking.cli.options import InvalidInput
 from rocking.explorer.fields import Refused
 from rocking.model.files import WriteError
-from rocking.model.text import shown, shown_path
+from rocking.model.text import formatted, formatted_path
 from rocking.model.validation import (
     WAYS,
     NoOrbit,
@@ -254,7 +254,7 @@ ROUND.append(ROUND)
     "value", ["a" * 5_000, [1] * 10**6, NoText(), [NoText()], ROUND, 10**5_000, {"a\nb": ROUND}], ids=range(7)
 )
 def test_any_value_is_shown_in_one_short_line(value):
-    assert len(shown(value)) <= 60
+    assert len(formatted(value)) <= 60
     with pytest.raises(TypeError, match="^angle must be ") as caught:
         rk.State(angle=[value])
     assert len(str(caught.value).splitlines()) == 1
@@ -263,17 +263,17 @@ def test_any_value_is_shown_in_one_short_line(value):
 
 
 def test_a_long_path_is_shown_with_both_ends():
-    assert shown_path(Path("folder/map.png")) == "'folder/map.png'"
-    text = shown_path(Path("start" + "/a" * 5_000 + "/map.png"))
+    assert formatted_path(Path("folder/map.png")) == "'folder/map.png'"
+    text = formatted_path(Path("start" + "/a" * 5_000 + "/map.png"))
     assert text.startswith("'start/a/a/")
     assert text.endswith("/a/a/map.png'")
     assert len(text) <= 121
 
 
 def test_values_are_shown_in_one_short_line():
-    assert shown(np.float64(1.5)) == "1.5"
-    assert len(shown(np.ones((50, 50)))) == 60
-    assert "\n" not in shown(np.ones((50, 50)))
+    assert formatted(np.float64(1.5)) == "1.5"
+    assert len(formatted(np.ones((50, 50)))) == 60
+    assert "\n" not in formatted(np.ones((50, 50)))
 
 
 def test_a_run_too_short_always_carries_its_estimate():

@@ -13,7 +13,7 @@ import pytest
 import rocking as rk
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.verdict import Criterion
-from rocking.response.evidence import SHOWN, at_most
+from rocking.response.evidence import STATEMENTS, at_most
 
 NOT_PERIODIC = (
     "period",
@@ -217,7 +217,7 @@ def test_sentence_tells_what_was_shown(name):
 
 
 def test_every_criterion_has_a_sentence_and_says_why_where_it_decides_nothing():
-    assert list(SHOWN) == list(Criterion)
+    assert list(STATEMENTS) == list(Criterion)
     assert all(bool(each.why) == (each.level == "none") for each in Criterion)
 
 
@@ -268,7 +268,7 @@ def test_kind_is_that_of_the_motion_and_what_does_not_apply_is_none(asked, kind)
 def test_level_of_the_evidence_is_named_in_its_sentence(asked, start, level):
     evidence = rk.classify(asked, start).evidence
     assert evidence.level == level
-    assert f" Evidence: {level}, " in evidence.shown
+    assert f" Evidence: {level}, " in evidence.statement
     assert bool(evidence.tolerances) == (level in ("verified", "statistical"))
 
 

@@ -61,7 +61,7 @@ def test_verdict_at_each_value_is_that_of_classify(name):
         assert found.verdicts[k] == alone
         assert (found.kind[k], found.period[k]) == (alone.kind, alone.period or 0)
         assert found.symmetric[k] == bool(alone.symmetric)
-        assert found.evidence[k] == alone.evidence.shown
+        assert found.evidence[k] == alone.evidence.statement
         for column, number in (("exponent", alone.exponent), ("exponent_error", alone.exponent_error)):
             shown = getattr(found, column)[k]
             assert np.isnan(shown) if number is None else shown == number

@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
-from rocking.survey.ending_measures import VARIABLES, alike, ending
+from rocking.survey.ending_measures import VARIABLES, ending, runs_of_equal_tables
 from rocking.survey.measurement import batches
 from rocking.survey.spec import motion_spec
 from rocking.survey.tiling import finest, levels
@@ -282,7 +282,7 @@ def test_neighbours_with_equal_record_and_frequency_parameter_are_one_stretch():
     )
     mesh = np.meshgrid(*spec.axes.values(), indexing="ij")
     runs = spec.inputs({name: values.ravel() for name, values in zip(spec.axes, mesh, strict=True)})
-    parts = list(alike(runs))
+    parts = list(runs_of_equal_tables(runs))
     assert [(part.start, part.stop) for part in parts] == list(pairwise(range(0, 9, 2)))
 
 

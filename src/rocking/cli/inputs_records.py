@@ -27,7 +27,7 @@ from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.record_set import RecordSet
-from rocking.model.text import listed, shown_path
+from rocking.model.text import formatted_path, listed
 from rocking.model.validation import refuse_if, within
 
 MIN_PGA, MAX_PGA = 1e-9, 1e5
@@ -134,7 +134,7 @@ def check_no_record(files: Mapping[str, Path], records: Sequence[GroundMotion]) 
     contents = {motion.file.sha256 for motion in records if motion.file is not None}
     for name, path in files.items():
         if digest(path) in contents:
-            raise InvalidInput(f"{option(name)} must not overwrite a record; got {shown_path(path)}")
+            raise InvalidInput(f"{option(name)} must not overwrite a record; got {formatted_path(path)}")
 
 
 def digest(path: Path) -> str | None:

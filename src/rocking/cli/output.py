@@ -25,7 +25,7 @@ from rocking.model.files import (
 )
 from rocking.model.quantity import IN_SI
 from rocking.model.table import finite
-from rocking.model.text import shown_path
+from rocking.model.text import formatted_path
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -91,15 +91,15 @@ def check_apart(outputs: Mapping[str, Path], inputs: Mapping[Path, str]) -> None
             place = resolve_path(option(name), path)
         for there, what in inputs.items():
             if is_same(place, there.resolve()):
-                raise InvalidInput(f"{option(name)} must not overwrite {what}; got {shown_path(path)}")
+                raise InvalidInput(f"{option(name)} must not overwrite {what}; got {formatted_path(path)}")
         for there, other in taken.items():
             if is_same(place, there):
                 raise InvalidInput(
-                    f"{option(other)} and {option(name)} must differ; got {shown_path(path)} for both"
+                    f"{option(other)} and {option(name)} must differ; got {formatted_path(path)} for both"
                 )
             if place.is_relative_to(there) or there.is_relative_to(place):
                 raise InvalidInput(
-                    f"{option(other)} and {option(name)} must not lie inside each other; got {shown_path(path)} for {option(name)}"
+                    f"{option(other)} and {option(name)} must not lie inside each other; got {formatted_path(path)} for {option(name)}"
                 )
         taken[place] = name
 
@@ -250,7 +250,7 @@ def complete(store: Path | None) -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         if store is not None:
-            note = f"--store {shown_path(store)} is complete; repeat the command to write the remaining files"
+            note = f"--store {formatted_path(store)} is complete; repeat the command to write the remaining files"
             print(f"rocking: {note}", file=sys.stderr)
         raise
 

@@ -145,6 +145,6 @@ def with_keys(message: str, path: Path, typed: Collection[str]) -> str:
 
 def quoted(path: Path) -> str:
     """Return a path in quotation marks."""
-    from rocking.model.text import shown_path
+    from rocking.model.text import formatted_path
 
-    return shown_path(path)
+    return formatted_path(path)

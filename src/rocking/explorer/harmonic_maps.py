@@ -14,7 +14,7 @@ from rocking.explorer.harmonic_view import HarmonicView
 from rocking.explorer.refinement import Measure, Picture, Results
 from rocking.model.verdict import Kind
 from rocking.plot import style, theory_curves
-from rocking.survey.attractors import alike, classify_with_anchor
+from rocking.survey.attractors import classify_with_anchor, pairs_of_equal_states
 from rocking.survey.verdict_measures import classify_points
 
 PERIOD = 64
@@ -203,7 +203,7 @@ class Orbits:
                 return
             if number == len(met):
                 met.append(states[left[0]].copy())
-            rows = alike(states[left], met[number][None])[:, 0]
+            rows = pairs_of_equal_states(states[left], met[number][None])[:, 0]
             numbers[left[rows]] = number
             left = np.delete(left, rows)
 

@@ -235,7 +235,7 @@ def in_metres(view: HarmonicView, typed: Mapping[str, str]) -> HarmonicView:
     except Refusal as error:
         raise HarmonicView.refused(error) from None
     forcing = system.periodic
-    wanted = attrs.evolve(
+    requested = attrs.evolve(
         view,
         amplitude=forcing.amplitude,
         period=forcing.period,
@@ -246,7 +246,7 @@ def in_metres(view: HarmonicView, typed: Mapping[str, str]) -> HarmonicView:
         amplitudes=_reaching(view.amplitudes, forcing.amplitude, quantities.AMPLITUDE.range[1]),
         periods=_reaching(view.periods, forcing.period, quantities.PERIOD.range[1]),
     )
-    return wanted.checked()
+    return requested.checked()
 
 
 def _reaching(span: Span, value: float, most: float) -> Span:

@@ -59,7 +59,7 @@ def checked_inertia_ratio(value: float) -> float:
     return within("inertia_ratio", value, *INERTIA_RATIOS)
 
 
-def size_doubts(checked_height: float, checked_width: float) -> Iterator[str]:
+def size_warnings(checked_height: float, checked_width: float) -> Iterator[str]:
     """Yield a sentence for each size in m that is probably in another unit."""
     for name, size, least in (("height", checked_height, LOWEST), ("width", checked_width, 0.0)):
         if not least <= size <= LARGEST:
@@ -127,7 +127,7 @@ class Block(Dimensions):
     inertia_ratio: float = field(default=RECTANGLE, converter=checked_inertia_ratio)
 
     def __attrs_post_init__(self) -> None:
-        for doubt in size_doubts(self.height, self.width):
+        for doubt in size_warnings(self.height, self.width):
             warn_of_value(doubt)
         if self.has_housner_restitution and self.restitution < 0:
             housner = f"{self.restitution:.3g} by Housner's formula for a block {self.height:g} m high and {self.width:g} m wide"
@@ -233,9 +233,9 @@ class Block(Dimensions):
         angle = critical_angle_for(model, self.critical_angle, self.width)
         if base is None:
             return self._made(self._harmonic(**harmonic, phase=phase), braces, angle)
-        given = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
-        if given:
-            raise WrongType(given[0], "be omitted with {base}")
+        values = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
+        if values:
+            raise WrongType(values[0], "be omitted with {base}")
         if isinstance(base, GroundMotion) and base.vertical:
             warn_of_value(vertical_sentence([base.component]))
         scales = self.acceleration(1.0), self.frequency_parameter
@@ -255,7 +255,7 @@ class Block(Dimensions):
         period_s: float | None,
         phase: float,
     ) -> Harmonic:
-        given = exactly_one(
+        values = exactly_one(
             acceleration=acceleration, acceleration_g=acceleration_g, displacement=displacement
         )
         frequency = self._forcing_frequency(frequency_hz, period_s)
@@ -263,9 +263,9 @@ class Block(Dimensions):
             "acceleration": (acceleration, 1.0, "m/s²"),
             "acceleration_g": (acceleration_g, GRAVITY, "g"),
             "displacement": (displacement, (frequency * self.frequency_parameter) ** 2, "m"),
-        }[given]
+        }[values]
         largest = self.acceleration(AMPLITUDE.range[1]) / per_unit
-        amplitude = self.amplitude(within(given, size, 0, largest, unit) * per_unit)  # type: ignore[arg-type]
+        amplitude = self.amplitude(within(values, size, 0, largest, unit) * per_unit)  # type: ignore[arg-type]
         return Harmonic(min(amplitude, AMPLITUDE.range[1]), frequency=frequency, phase=phase)
 
     def _forcing_frequency(self, frequency_hz: float | None, period_s: float | None) -> float:
@@ -348,15 +348,15 @@ class Block(Dimensions):
         >>> round(float(block.angle(degrees=block.degrees(0.5))), 12)
         0.5
         """
-        given = exactly_one(radians=radians, degrees=degrees, top_displacement=top_displacement)
-        if given == "radians":
-            return reals(given, radians) / self.critical_angle
-        if given == "degrees":
-            return np.radians(reals(given, degrees)) / self.critical_angle
-        sine = reals(given, top_displacement) / self.height
+        values = exactly_one(radians=radians, degrees=degrees, top_displacement=top_displacement)
+        if values == "radians":
+            return reals(values, radians) / self.critical_angle
+        if values == "degrees":
+            return np.radians(reals(values, degrees)) / self.critical_angle
+        sine = reals(values, top_displacement) / self.height
         if np.any(np.abs(sine) > 1):
             allowed = f"lie in [-{self.height:g}, {self.height:g}] m, the height"
-            raise Refusal(given, allowed, top_displacement)
+            raise Refusal(values, allowed, top_displacement)
         return np.arcsin(sine) / self.critical_angle
 
     def __repr__(self) -> str:

@@ -21,7 +21,7 @@ from typing import Any
 from attrs import frozen
 
 from rocking.model.package import require_format
-from rocking.model.text import shown_path
+from rocking.model.text import formatted_path
 from rocking.model.validation import Refusal, Text, WrongType
 
 PRIVATE, PRIVATE_FOLDER = 0o600, 0o700
@@ -104,7 +104,7 @@ def resolve_path(name: str, path: str | os.PathLike[str]) -> Path:
         why = getattr(error, "strerror", None) or error
         if isinstance(error, FileNotFoundError):  # only a missing working directory raises it here
             why = "the working directory does not exist any more"
-        raise OSError(f"{name} must be a path that can exist; got {shown_path(path)}: {why}") from error
+        raise OSError(f"{name} must be a path that can exist; got {formatted_path(path)}: {why}") from error
     return place
 
 
@@ -131,17 +131,17 @@ def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[s
     """
     path = path_of(name, path)
     if suffixes and path.suffix.lower() not in suffixes:
-        raise Refusal(name, f"end in {', '.join(suffixes)}", Text(shown_path(path)))
+        raise Refusal(name, f"end in {', '.join(suffixes)}", Text(formatted_path(path)))
     require_format(path)
     place = resolve_path(name, path)
     if not place.parent.is_dir():
-        raise FileNotFoundError(f"{name} must lie in an existing folder; got {shown_path(path)}")
+        raise FileNotFoundError(f"{name} must lie in an existing folder; got {formatted_path(path)}")
     if place.exists() and not place.is_file():
         raise OSError(
-            f"{name} must be the path of a file; got {shown_path(path)}, which is not a regular file"
+            f"{name} must be the path of a file; got {formatted_path(path)}, which is not a regular file"
         )
     if not takes_files(place.parent) or (place.exists() and not os.access(place, os.W_OK)):
-        raise PermissionError(f"{name} must be writable; got {shown_path(path)}, which is not")
+        raise PermissionError(f"{name} must be writable; got {formatted_path(path)}, which is not")
     return path
 
 
@@ -157,7 +157,7 @@ def check_folder(name: str, path: str | os.PathLike[str]) -> Path:
     place = resolve_path(name, path)
     existing = next(each for each in (place, *place.parents) if each.exists())
     if not existing.is_dir() or not takes_files(existing):
-        raise OSError(f"{name} must be a folder that can be written; got {shown_path(path)}")
+        raise OSError(f"{name} must be a folder that can be written; got {formatted_path(path)}")
     return path
 
 
@@ -221,7 +221,7 @@ def _writing(path: str | os.PathLike[str]) -> Iterator[None]:
     except Exception as error:
         if (failure := _system_error(error)) is None or failure.errno is None:
             raise
-        raise WriteError(not_written(shown_path(path), failure)) from error
+        raise WriteError(not_written(formatted_path(path), failure)) from error
 
 
 def _system_error(error: BaseException | None) -> OSError | None:
@@ -327,10 +327,10 @@ def check_replaceable(name: str, path: str | os.PathLike[str], made: Made) -> Pa
     path = check_folder(name, path)
     with suppress(FileNotFoundError):  # the working directory may be gone
         if Path.cwd().is_relative_to(path.resolve()):
-            raise OSError(f"{name} must not contain the working directory; got {shown_path(path)}")
+            raise OSError(f"{name} must not contain the working directory; got {formatted_path(path)}")
     if path.exists() and any(path.iterdir()) and not made.is_in(path):
         raise FileExistsError(
-            f"{name} must be new, empty, or hold only an earlier {made.page} with its files; got {shown_path(path)}, "
+            f"{name} must be new, empty, or hold only an earlier {made.page} with its files; got {formatted_path(path)}, "
             "which holds other files"
         )
     return path

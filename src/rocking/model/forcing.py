@@ -185,8 +185,8 @@ class Harmonic(Forcing):
         return self.amplitude * np.cos(self.frequency * reals("times", times, MAX_TIME) + self.phase)
 
     def __repr__(self) -> str:
-        given = f"period={self._period}" if self._frequency is None else f"frequency={self._frequency}"
-        return f"Harmonic(amplitude={self.amplitude}, {given}, phase={self.phase})"
+        values = f"period={self._period}" if self._frequency is None else f"frequency={self._frequency}"
+        return f"Harmonic(amplitude={self.amplitude}, {values}, phase={self.phase})"
 
 
 STEPS = (1e-9, 1e6)
@@ -213,17 +213,17 @@ def samples(name: str, values: Any, largest: float) -> np.ndarray:
     ValueError
         If there are no samples or too many, or if one is not finite or too large.
     """
-    found = np.atleast_1d(reals(name, values))
+    numbers = np.atleast_1d(reals(name, values))
     if isinstance(values, np.ndarray) and values.dtype == float and not values.flags.writeable:
-        found = values
-    if found.ndim != 1 or not 1 <= found.size <= MAX_SAMPLES:
+        numbers = values
+    if numbers.ndim != 1 or not 1 <= numbers.size <= MAX_SAMPLES:
         raise Refusal(name, f"be 1 to {MAX_SAMPLES:,} numbers in a row", values)
-    wrong = ~(np.abs(found) <= largest)
+    wrong = ~(np.abs(numbers) <= largest)
     if wrong.any():
         first = int(np.argmax(wrong))
         allowed = f"be finite and of size up to {largest:g}, unlike sample {first}"
-        raise Refusal(name, allowed, float(found[first]))
-    return read_only(np.ascontiguousarray(found))
+        raise Refusal(name, allowed, float(numbers[first]))
+    return read_only(np.ascontiguousarray(numbers))
 
 
 def _values(values: Any) -> np.ndarray:
@@ -324,8 +324,8 @@ class PiecewiseLinear(Forcing, ReadOnlyArrays):
         -1.0
         """
         places = np.asarray(reals("times", times, MAX_TIME)) / self.step
-        found = np.interp(places, np.arange(self.values.size), self.values, left=0.0, right=0.0)
-        return (self.scale * found)[()]
+        values = np.interp(places, np.arange(self.values.size), self.values, left=0.0, right=0.0)
+        return (self.scale * values)[()]
 
     def displacement(self, times: Any) -> Any:
         """Return the base displacement from rest, by exact integration of the straight segments.

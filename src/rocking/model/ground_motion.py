@@ -405,14 +405,14 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         >>> round(steady.response_spectrum(1.0, damping=0.0), 4)
         2.0
         """
-        given = np.asarray(reals("periods", periods), dtype=float)
+        values = np.asarray(reals("periods", periods), dtype=float)
         shortest, longest = PERIODS
-        if not ((given >= shortest) & (given <= longest)).all():
+        if not ((values >= shortest) & (values <= longest)).all():
             raise Refusal("periods", f"lie in [{shortest:g}, {longest:g}] s", periods)
         damping = within("damping", damping, 0, MAX_DAMPING)
         a = self.acceleration
-        found = [pseudo_acceleration(a, self.step, period, damping) for period in given.ravel().tolist()]
-        return found[0] if given.ndim == 0 else np.reshape(np.array(found, dtype=float), given.shape)
+        rows = [pseudo_acceleration(a, self.step, period, damping) for period in values.ravel().tolist()]
+        return rows[0] if values.ndim == 0 else np.reshape(np.array(rows, dtype=float), values.shape)
 
     def scaled(self, factor: float | None = None, *, pga: float | None = None) -> GroundMotion:
         """Return the motion times a factor, or scaled to a peak ground acceleration.
@@ -442,10 +442,10 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         """
         if exactly_one(factor=factor, pga=pga) == "factor":
             return evolve(self, factor=self.factor * finite("factor", factor, MAX_FACTOR))  # type: ignore[arg-type]
-        wanted = within("pga", pga, 0, MAX_ACCELERATION, "m/s²")  # type: ignore[arg-type]
+        requested = within("pga", pga, 0, MAX_ACCELERATION, "m/s²")  # type: ignore[arg-type]
         if self.pga == 0.0:
-            raise Refusal("pga", "be 0 for a motion whose acceleration is 0 throughout", wanted)
-        return evolve(self, factor=self.factor * (wanted / self.pga))
+            raise Refusal("pga", "be 0 for a motion whose acceleration is 0 throughout", requested)
+        return evolve(self, factor=self.factor * (requested / self.pga))
 
     def normalised(self, acceleration: float, frequency: float) -> PiecewiseLinear:
         """Return the normalised base acceleration, which shares the samples.

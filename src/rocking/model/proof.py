@@ -87,12 +87,12 @@ class Proof(Result):
     def facts(self) -> dict[str, Any]:
         """Facts that are numbers, words or flags, by name; of a multiplier the middle and the radius."""
         left_out = ("system", "phases", "multipliers")
-        found = {each.name: getattr(self, each.name) for each in fields(Proof) if each.name not in left_out}
+        rows = {each.name: getattr(self, each.name) for each in fields(Proof) if each.name not in left_out}
         for number, (middle, radius) in enumerate(self.multipliers or (), 1):
-            found[f"multiplier_{number}_real"] = middle.real
-            found[f"multiplier_{number}_imag"] = middle.imag
-            found[f"multiplier_{number}_radius"] = radius
-        return found
+            rows[f"multiplier_{number}_real"] = middle.real
+            rows[f"multiplier_{number}_imag"] = middle.imag
+            rows[f"multiplier_{number}_radius"] = radius
+        return rows
 
     def _data(self) -> xr.Dataset:
         import xarray as xr
@@ -177,8 +177,8 @@ class ProvedShare(Result):
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.parametric_map(system, amplitude=[2.0, 3.0], period=[0.5, 1.0])
-    >>> print(rk.proved_share(found))
+    >>> result = rk.parametric_map(system, amplitude=[2.0, 3.0], period=[0.5, 1.0])
+    >>> print(rk.proved_share(result))
     4 periodic responses; orbits proved: 100 % (51.0–100 %); initial states proved: 100 % (51.0–100 %)
     """
 

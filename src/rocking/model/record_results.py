@@ -85,10 +85,10 @@ class LognormalFit:
         """
         from scipy.special import ndtr
 
-        given = np.asarray(reals("levels", levels))
-        refuse_if((given < 0.0).any(), "levels", "not be negative", levels)
+        values = np.asarray(reals("levels", levels))
+        refuse_if((values < 0.0).any(), "levels", "not be negative", levels)
         with np.errstate(divide="ignore"):  # the probability at 0 is 0
-            return ndtr(np.log(given / self.median) / self.dispersion)
+            return ndtr(np.log(values / self.median) / self.dispersion)
 
     def __str__(self) -> str:
         return self.described()
@@ -137,8 +137,8 @@ class Fragility(Result):
     >>> import numpy as np
     >>> import rocking as rk
     >>> records = rk.synthetic_ground_motions(8, seed=1)
-    >>> found = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 17), limits=())
-    >>> found.dataset.fraction.dims, found.fit().limit
+    >>> result = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 17), limits=())
+    >>> result.dataset.fraction.dims, result.fit().limit
     (('limit', 'level'), inf)
     """
 
@@ -175,9 +175,9 @@ class Fragility(Result):
         TooShort
             If the data do not determine the fit.
         """
-        wanted = real("limit", limit)
+        requested = real("limit", limit)
         for fit in self.fits:
-            if fit.limit == wanted:
+            if fit.limit == requested:
                 if fit.problem:
                     raise TooShort(f"no fit for {limit_name(fit.limit)}: {fit.problem}", fit)
                 return fit
@@ -227,8 +227,8 @@ class IncrementalDynamicAnalysis(Result):
     --------
     >>> import rocking as rk
     >>> records = rk.synthetic_ground_motions(5, seed=1)
-    >>> found = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), [1.0, 2.0, 4.0])
-    >>> found.fractiles().sizes["fractile"], bool(found.fractiles([0.5]).isel(level=-1).item() == float("inf"))
+    >>> result = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), [1.0, 2.0, 4.0])
+    >>> result.fractiles().sizes["fractile"], bool(result.fractiles([0.5]).isel(level=-1).item() == float("inf"))
     (3, True)
     """
 
@@ -285,9 +285,9 @@ class IncrementalDynamicAnalysis(Result):
 
         low, high = self.fractiles([0.16, 0.84]).values
         with np.errstate(divide="ignore", invalid="ignore"):
-            found = 0.5 * np.log(high / np.where((low > 0.0) & np.isfinite(low), low, np.nan))
+            result = 0.5 * np.log(high / np.where((low > 0.0) & np.isfinite(low), low, np.nan))
         attributes = {"long_name": "record-to-record scatter of ln peak", "units": "1"}
-        return xr.DataArray(found, {"level": self.dataset.level}, ("level",), "scatter", attributes)
+        return xr.DataArray(result, {"level": self.dataset.level}, ("level",), "scatter", attributes)
 
     def __str__(self) -> str:
         data = self.dataset
@@ -301,10 +301,10 @@ class IncrementalDynamicAnalysis(Result):
 
 def checked_fractions(name: str, values: Any) -> np.ndarray:
     """Return fractions in (0, 1] as an array (n,), n >= 1; TypeError or ValueError for anything else."""
-    found = np.atleast_1d(reals(name, values))
-    if found.ndim != 1 or not found.size or not ((found > 0.0) & (found <= 1.0)).all():
+    numbers = np.atleast_1d(reals(name, values))
+    if numbers.ndim != 1 or not numbers.size or not ((numbers > 0.0) & (numbers <= 1.0)).all():
         raise Refusal(name, "hold fractions in (0, 1]", values)
-    return found
+    return numbers
 
 
 def _level(data: Any, place: int) -> str:
@@ -360,7 +360,7 @@ class OverturningSet(Result):
     >>> import rocking as rk
     >>> push = rk.GroundMotion([1.0, 1.0], step=0.4, name="push")
     >>> print(rk.overturning_set(push, rk.Block(2.0, 0.5), np.linspace(0.1, 2, 20), intensity="pga-g"))
-    1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.6 % of the range overturns; lowest found 0.373175 g.
+    1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.6 % of the range overturns; lowest result 0.373175 g.
     Intervals and gaps narrower than 0.1 g may be missed
     """
 
@@ -431,17 +431,17 @@ class OverturningSet(Result):
         - `certified_below`, `certified_above`: closest levels found to have certified outcomes, NaN if none. A certified
           switch lies between them.
         """
-        found = np.empty(self.dataset.sizes["switch"], SWITCH_ROW)
+        data = np.empty(self.dataset.sizes["switch"], SWITCH_ROW)
         for name in SWITCH_ROW.names or ():
-            found[name] = self.dataset[f"switch_{name}"].values
-        return found
+            data[name] = self.dataset[f"switch_{name}"].values
+        return data
 
     @property
     def undecided(self) -> np.ndarray:
         """Switches that rounding may have made; structured array (n,), empty for a full block, where it is not assessed."""
-        found = self.switches
+        result = self.switches
         assessed = self.dataset.attrs.get("model") != "full"
-        return found[~found["certified"] & assessed]
+        return result[~result["certified"] & assessed]
 
     @property
     def lowest(self) -> np.ndarray:
@@ -478,8 +478,8 @@ class OverturningSet(Result):
         --------
         >>> import rocking as rk
         >>> push = rk.GroundMotion([1.0, 1.0], step=0.4)
-        >>> found = rk.overturning_set(push, rk.Block(2.0, 0.5), [2.0, 5.0, 15.0])
-        >>> found.intervals().round(6).tolist()
+        >>> result = rk.overturning_set(push, rk.Block(2.0, 0.5), [2.0, 5.0, 15.0])
+        >>> result.intervals().round(6).tolist()
         [[3.659594, 15.0]]
         """
         record = whole("record", record, 0, len(self.records) - 1)
@@ -559,8 +559,8 @@ class Sensitivity(Result):
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.sensitivity(rk.synthetic_ground_motions(5, seed=1), rk.Block(2.0, 0.5), [3.0, 4.0], intensity="pga")
-    >>> found.dataset.share.dims, int(found.dataset.runs[0])
+    >>> result = rk.sensitivity(rk.synthetic_ground_motions(5, seed=1), rk.Block(2.0, 0.5), [3.0, 4.0], intensity="pga")
+    >>> result.dataset.share.dims, int(result.dataset.runs[0])
     (('change',), 10)
     """
 

@@ -13,7 +13,7 @@ from attrs import field, frozen
 from rocking.model.arrays import read_only
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
-from rocking.model.text import counted, shown
+from rocking.model.text import counted, formatted
 from rocking.model.validation import Refusal, WrongType, members, one_of, reals, warn_of_input, warn_of_value
 
 ALLOWED = "hold ground motions, one at least"
@@ -23,20 +23,20 @@ REMEDY = "read them with rk.read_ground_motion, or a folder with rk.read_record_
 def _motions(values: Any) -> tuple[GroundMotion, ...]:
     if isinstance(values, str | os.PathLike):
         raise WrongType("records", ALLOWED, values, REMEDY)
-    found = (values,) if isinstance(values, GroundMotion) else members("records", values, ALLOWED)
-    if not found:
+    result = (values,) if isinstance(values, GroundMotion) else members("records", values, ALLOWED)
+    if not result:
         raise Refusal("records", ALLOWED, values, REMEDY)
-    for each in found:
+    for each in result:
         if not isinstance(each, GroundMotion):
             raise WrongType("records", ALLOWED, each, REMEDY)
-    return found
+    return result
 
 
 def _columns(values: Mapping[str, Any]) -> dict[str, np.ndarray]:
     if not isinstance(values, Mapping):
         raise WrongType("columns", "be a mapping of names to one number per record", values)
     return {
-        str(name): read_only(np.atleast_1d(reals(f"columns[{shown(name)}]", column)))
+        str(name): read_only(np.atleast_1d(reals(f"columns[{formatted(name)}]", column)))
         for name, column in values.items()
     }
 
@@ -89,7 +89,7 @@ class RecordSet(Sequence[GroundMotion]):
         for name, column in self.columns.items():
             if column.shape != (len(self.motions),):
                 allowed = f"hold {counted(len(self.motions), 'number')}, one per record"
-                raise Refusal(f"columns[{shown(name)}]", allowed, column.tolist())
+                raise Refusal(f"columns[{formatted(name)}]", allowed, column.tolist())
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -100,12 +100,12 @@ class RecordSet(Sequence[GroundMotion]):
     @property
     def digest(self) -> str:
         """SHA-256 of samples, steps and factors of all motions, in their order."""
-        found = sha256()
+        digest = sha256()
         for each in self.motions:
             base = each.normalised(1.0, 1.0)  # the samples before the factor
-            found.update(np.array([base.values.size, base.step, base.scale]).tobytes())
-            found.update(base.values.tobytes())
-        return found.hexdigest()
+            digest.update(np.array([base.values.size, base.step, base.scale]).tobytes())
+            digest.update(base.values.tobytes())
+        return digest.hexdigest()
 
     @property
     def vertical(self) -> tuple[str, ...]:
@@ -130,10 +130,10 @@ def record_set(records: RecordSet | GroundMotion | Iterable[GroundMotion]) -> Re
     """Return a set of records as it is, and one or more ground motions as a set, with a warning of vertical components."""
     if isinstance(records, RecordSet):
         return records
-    found = RecordSet(records)
-    if names := found.vertical:
+    result = RecordSet(records)
+    if names := result.vertical:
         warn_of_input(vertical_sentence(names))
-    return found
+    return result
 
 
 def _for_any_block(frequency_parameter: Any, critical_angle: Any) -> Any:

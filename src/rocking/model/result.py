@@ -169,8 +169,8 @@ class Result:
         Examples
         --------
         >>> import rocking as rk
-        >>> found = rk.classify(rk.Block(2.0, 0.5).system(acceleration=2.0, frequency_hz=1.2)).to_dict()
-        >>> found["kind"], found["peak_rad"], found["acceleration_m_per_s2"]
+        >>> result = rk.classify(rk.Block(2.0, 0.5).system(acceleration=2.0, frequency_hz=1.2)).to_dict()
+        >>> result["kind"], result["peak_rad"], result["acceleration_m_per_s2"]
         ('rest', 0.0, 2.0)
         """
         chosen = self._block(units, block)
@@ -199,8 +199,8 @@ class Result:
         --------
         >>> import rocking as rk
         >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.925)
-        >>> found = rk.safe_basin(system, amplitude=[0.2, 0.5], samples=100)
-        >>> list(found.tables()["amplitude"])[:4]
+        >>> result = rk.safe_basin(system, amplitude=[0.2, 0.5], samples=100)
+        >>> list(result.tables()["amplitude"])[:4]
         ['amplitude [g theta_cr]', 'period [1/alpha]', 'restitution', 'phase [rad]']
         """
         chosen = self._block(units, block)
@@ -232,8 +232,8 @@ class Result:
         --------
         >>> import rocking as rk
         >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.925)
-        >>> found = rk.safe_basin(system, amplitude=[0.2, 0.5], samples=100)
-        >>> found.to_dataframe()["safe"].tolist()
+        >>> result = rk.safe_basin(system, amplitude=[0.2, 0.5], samples=100)
+        >>> result.to_dataframe()["safe"].tolist()
         [0.55, 0.55]
         """
         import pandas as pd

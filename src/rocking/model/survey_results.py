@@ -58,9 +58,9 @@ def counted_flags(data: xr.Dataset, *variables: str) -> xr.Dataset:
     names: dict[str, Any] = {}
     for variable in variables:
         text = str(data[variable].attrs["long_name"])
-        found = counts(data, variable)
-        names[variable] = variable, list(found), {"long_name": text}
-        numbers[f"{variable}_points"] = variable, list(found.values()), {"long_name": "number of points"}
+        result = counts(data, variable)
+        names[variable] = variable, list(result), {"long_name": text}
+        numbers[f"{variable}_points"] = variable, list(result.values()), {"long_name": "number of points"}
     return xr.Dataset(numbers, names, data.attrs)
 
 
@@ -194,8 +194,8 @@ class SafeBasin(SystemSurvey):
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.925)
-    >>> found = rk.safe_basin(system, amplitude=[0.2, 0.5], samples=100)
-    >>> found.shares[0].of, found.melnikov_amplitude < found.heteroclinic_amplitude
+    >>> result = rk.safe_basin(system, amplitude=[0.2, 0.5], samples=100)
+    >>> result.shares[0].of, result.melnikov_amplitude < result.heteroclinic_amplitude
     (100, True)
     """
 
@@ -326,10 +326,10 @@ class Repeatability(Result):
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
-    >>> found = rk.repeatability(system, samples=100)
-    >>> print(found)
+    >>> result = rk.repeatability(system, samples=100)
+    >>> print(result)
     100 runs with inputs off by up to 1 %: rest 100 % (96.3–100 %)
-    >>> found.certain
+    >>> result.certain
     True
     """
 
@@ -410,12 +410,12 @@ class RepeatabilityMap(SystemSurvey):
     def _data(self) -> xr.Dataset:
         """Return the dataset with both fractions as attributes."""
         shares = {"uncertain": self.uncertain, "overturning_uncertain": self.overturning_uncertain}
-        found = {
+        rows = {
             f"{name}{end}": getattr(share, part)
             for name, share in shares.items()
             for end, part in (("", "value"), ("_low", "low"), ("_high", "high"))
         }
-        return self.dataset.assign_attrs(found, points=self.uncertain.of)
+        return self.dataset.assign_attrs(rows, points=self.uncertain.of)
 
     def _summary(self) -> xr.Dataset:
         return self._data().drop_vars(list(self.dataset.data_vars))
@@ -447,8 +447,8 @@ class Attractor:
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
-    >>> found = rk.basin_map(system, angle=[0.0, 0.1], velocity=[0.0, 0.1], boundary_runs=0)
-    >>> print(found.attractors[0])
+    >>> result = rk.basin_map(system, angle=[0.0, 0.1], velocity=[0.0, 0.1], boundary_runs=0)
+    >>> print(result.attractors[0])
     rest
     """
 

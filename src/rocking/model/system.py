@@ -238,15 +238,15 @@ def quantities(system: System) -> dict[str, float]:
     ['amplitude', 'period', 'frequency', 'phase', 'restitution', 'brace_angle', 'brace_restitution']
     """
     braces = system.braces
-    found = {**system.forcing.quantities(), "restitution": system.restitution}
+    rows = {**system.forcing.quantities(), "restitution": system.restitution}
     if system.critical_angle is not None:
-        found["critical_angle"] = system.critical_angle
+        rows["critical_angle"] = system.critical_angle
     if braces is not None:
-        found |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
-    return found
+        rows |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+    return rows
 
 
-def system_of(given: Mapping[str, float]) -> System:
+def system_of(values: Mapping[str, float]) -> System:
     """Return the system with these quantities, its forcing made from the period, or without one from the frequency.
 
     It has no braces if their angle is infinite, and is slender if the critical angle is 0 or missing.
@@ -256,14 +256,14 @@ def system_of(given: Mapping[str, float]) -> System:
     >>> system_of({"amplitude": 2.0, "period": 1.0, "phase": 0.0, "restitution": 0.925} | NO_BRACES).forcing
     Harmonic(amplitude=2.0, period=1.0, phase=0.0)
     """
-    time = "period" if "period" in given else "frequency"
-    forcing = Harmonic(given["amplitude"], phase=given["phase"], **{time: given[time]})
-    braced = given["brace_angle"] < math.inf
+    time = "period" if "period" in values else "frequency"
+    forcing = Harmonic(values["amplitude"], phase=values["phase"], **{time: values[time]})
+    braced = values["brace_angle"] < math.inf
     return System(
         forcing,
-        given["restitution"],
-        Braces(given["brace_angle"], given["brace_restitution"]) if braced else None,
-        given.get("critical_angle", 0.0) or None,
+        values["restitution"],
+        Braces(values["brace_angle"], values["brace_restitution"]) if braced else None,
+        values.get("critical_angle", 0.0) or None,
     )
 
 

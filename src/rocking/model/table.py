@@ -127,20 +127,20 @@ AT_ONCE = 1 << 20
 """Approximate number of points in memory at a time."""
 
 
-def parts(found: xr.Dataset) -> Iterator[xr.Dataset]:
+def parts(data: xr.Dataset) -> Iterator[xr.Dataset]:
     """Yield the dataset in parts along its first axis, each in memory."""
-    first = next(iter(found.data_vars.values())).dims[0]
-    count = found.sizes[first]
-    step = max(AT_ONCE * count // math.prod(found.sizes.values()), 1)
+    first = next(iter(data.data_vars.values())).dims[0]
+    count = data.sizes[first]
+    step = max(AT_ONCE * count // math.prod(data.sizes.values()), 1)
     for begin in range(0, count, step):
-        yield found.isel({first: slice(begin, begin + step)}).load()
+        yield data.isel({first: slice(begin, begin + step)}).load()
 
 
-def counts(found: xr.Dataset, name: str) -> dict[str, int]:
+def counts(data: xr.Dataset, name: str) -> dict[str, int]:
     """Return the number of points with each flag of a variable, by the meaning of the flag."""
-    meanings = flags(found[name].attrs)
+    meanings = flags(data[name].attrs)
     total = np.zeros(256, np.int64)
-    for part in parts(found[[name]]):
+    for part in parts(data[[name]]):
         total += np.bincount(part[name].values.ravel(), minlength=256)
     return {meaning: int(total[value]) for value, meaning in meanings.items()}
 

@@ -102,7 +102,7 @@ _SHORT.maxstring = _SHORT.maxlong = _SHORT.maxother = 4 * MAX_SHOWN_PATH
 """Texts of values, in bounded time, also of a list that contains itself and of an object whose `repr` fails."""
 
 
-def shown(value: object) -> str:
+def formatted(value: object) -> str:
     """Return a value as one short line, with NumPy numbers as plain numbers."""
     if isinstance(value, np.generic):
         value = value.item()
@@ -113,7 +113,7 @@ def shown(value: object) -> str:
     return text if len(text) <= MAX_SHOWN_LENGTH else text[: MAX_SHOWN_LENGTH - 1] + "…"
 
 
-def shown_path(path: str | os.PathLike[str]) -> str:
+def formatted_path(path: str | os.PathLike[str]) -> str:
     """Return a path in quotation marks, without its middle if it is long."""
     return both_ends(repr(os.fspath(path)))
 

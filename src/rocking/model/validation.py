@@ -19,7 +19,7 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from rocking.model.text import shown
+from rocking.model.text import formatted
 
 Value = TypeVar("Value")
 
@@ -174,7 +174,7 @@ class Refusal(ValueError):
 
     def __str__(self) -> str:
         argument = self._names.get(self.argument, self.argument)
-        value, remedy = shown(self.value), self._named(self.remedy)
+        value, remedy = formatted(self.value), self._named(self.remedy)
         if isinstance(self.value, Text):
             value = self._named(self.value)
         parts = (
@@ -192,7 +192,7 @@ class Refusal(ValueError):
 
     def __reduce__(self) -> tuple[Any, ...]:
         # The value may be anything, such as a function that another process cannot have.
-        state = self.__dict__ | {"value": Text(shown(self.value))}
+        state = self.__dict__ | {"value": Text(formatted(self.value))}
         return type(self), (self.argument, self.allowed, state["value"], self.remedy), state
 
 
@@ -288,13 +288,13 @@ def number(value: object) -> Any:
 
 def real(name: str, value: float, allowed: str = "be a real number") -> float:
     """Return a real number as a float, infinite on overflow; TypeError for other types."""
-    found = number(value)
-    if found is None:
+    real_number = number(value)
+    if real_number is None:
         raise WrongType(name, allowed, value)
     try:
-        return float(found)
+        return float(real_number)
     except OverflowError:
-        return math.inf if found > 0 else -math.inf
+        return math.inf if real_number > 0 else -math.inf
 
 
 def whole(name: str, value: int, low: int, high: int) -> int:
@@ -308,12 +308,12 @@ def whole(name: str, value: int, low: int, high: int) -> int:
         If `value` lies outside the range or has a fraction.
     """
     allowed = f"be a whole number in [{low}, {high}]"
-    found = number(value)
-    if found is None:
+    real_number = number(value)
+    if real_number is None:
         raise WrongType(name, allowed, value)
-    if not low <= found <= high or found != int(found):
+    if not low <= real_number <= high or real_number != int(real_number):
         raise Refusal(name, allowed, value)
-    return int(found)
+    return int(real_number)
 
 
 def reals(name: str, values: Any, largest: float | None = None) -> Any:
@@ -335,16 +335,16 @@ def reals(name: str, values: Any, largest: float | None = None) -> Any:
     ValueError
         If a number is too large, or if values are masked.
     """
-    found = number(values)
-    if found is None:
-        found = _array(name, values)
-    size = abs(found)
+    numbers = number(values)
+    if numbers is None:
+        numbers = _array(name, values)
+    size = abs(numbers)
     wrong = (size > MAX_REAL) & (size != math.inf) if largest is None else np.logical_not(size <= largest)
     if np.any(wrong):
-        first = found[wrong].flat[0] if isinstance(found, np.ndarray) else values
+        first = numbers[wrong].flat[0] if isinstance(numbers, np.ndarray) else values
         finite_only = "" if largest is None else "finite "
         raise Refusal(name, f"be a {finite_only}real number of size up to {largest or MAX_REAL:g}", first)
-    return found if isinstance(found, np.ndarray) else float(found)
+    return numbers if isinstance(numbers, np.ndarray) else float(numbers)
 
 
 def _array(name: str, values: Any) -> np.ndarray:
@@ -364,11 +364,11 @@ def _is_masked(values: Any) -> bool:
     """Return whether a value is masked in an array, or in a list of arrays at any depth."""
     waiting, seen = [values], set()
     while waiting:
-        found = waiting.pop()
-        if isinstance(found, list | tuple) and id(found) not in seen:
-            seen.add(id(found))  # a list may contain itself
-            waiting += found
-        elif isinstance(found, np.ma.MaskedArray) and np.ma.is_masked(found):
+        result = waiting.pop()
+        if isinstance(result, list | tuple) and id(result) not in seen:
+            seen.add(id(result))  # a list may contain itself
+            waiting += result
+        elif isinstance(result, np.ma.MaskedArray) and np.ma.is_masked(result):
             return True
     return False
 
@@ -385,10 +385,10 @@ def members(name: str, values: Any, allowed: str) -> tuple[Any, ...]:
 
 def pair(name: str, values: Any, allowed: str) -> tuple[Any, Any]:
     """Return both members of a pair; TypeError or ValueError, with `allowed` in its message, for anything else."""
-    found = members(name, values, allowed)
-    if len(found) != 2:
+    result = members(name, values, allowed)
+    if len(result) != 2:
         raise Refusal(name, allowed, values)
-    return found[0], found[1]
+    return result[0], result[1]
 
 
 def instance(name: str, value: Value, kind: type) -> Value:
@@ -421,12 +421,12 @@ def exactly_one(**values: object) -> str:
     Traceback (most recent call last):
     rocking.model.validation.NotOne: give exactly one of period, frequency; got none
     """
-    given = {name: value for name, value in values.items() if value is not None}
-    if len(given) != 1:
-        got = " and ".join(f"{{{name}}}={shown(value)}" for name, value in given.items()) or "none"
+    arguments = {name: value for name, value in values.items() if value is not None}
+    if len(arguments) != 1:
+        got = " and ".join(f"{{{name}}}={formatted(value)}" for name, value in arguments.items()) or "none"
         names = ", ".join(f"{{{name}}}" for name in values)
         raise NotOne(names, "be one", Text(got))
-    return next(iter(given))
+    return next(iter(arguments))
 
 
 Call = TypeVar("Call", bound=Callable[..., Any])
@@ -487,7 +487,7 @@ def _unknown(name: str, wrong: str, known: list[str]) -> str:
     if len(all_of_them) > MAX_LISTED:
         all_of_them = all_of_them[:MAX_LISTED].rpartition(", ")[0] + ", …"
     way = f"did you mean {near!r}?" if near else f"it has: {all_of_them}" if known else "it has none"
-    return f"{name}() has no argument {shown(wrong)} ({way})"
+    return f"{name}() has no argument {formatted(wrong)} ({way})"
 
 
 OWN = ("rocking", "attr", "attrs", "contextlib")

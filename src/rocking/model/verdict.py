@@ -47,8 +47,8 @@ class Kind(StrEnum):
         --------
         >>> import rocking as rk
         >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-        >>> found = rk.parametric_map(system, amplitude=[0.5, 2.0], period=[1.0, 2.0])
-        >>> int((found.dataset.kind == rk.Kind.REST.code).sum())
+        >>> result = rk.parametric_map(system, amplitude=[0.5, 2.0], period=[1.0, 2.0])
+        >>> int((result.dataset.kind == rk.Kind.REST.code).sum())
         2
         """
         return list(type(self)).index(self)
@@ -198,7 +198,7 @@ class Evidence:
     level : str
         "exact": it follows from the closed form. "proved": in ball arithmetic, by `prove`. "verified": a number meets a stated
         tolerance. "statistical": it holds over the simulated cycles only. "none": nothing was shown.
-    shown : str
+    statement : str
         Finding, level and number of cycles in words; the remedy if the response is undetermined.
     tolerances : dict
         Tolerances that were met, by name.
@@ -208,18 +208,18 @@ class Evidence:
     Examples
     --------
     >>> import rocking as rk
-    >>> found = rk.classify(rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9))
-    >>> print(found.evidence)
+    >>> result = rk.classify(rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9))
+    >>> print(result.evidence)
     the block remains at rest, because A = 0.5 ≤ 1 cannot lift it off. Evidence: exact, from the initial state on.
     """
 
     level: str
-    shown: str
+    statement: str
     tolerances: dict[str, float] = field(hash=False)
     cycles: int
 
     def __str__(self) -> str:
-        return self.shown
+        return self.statement
 
 
 @frozen

@@ -105,14 +105,14 @@ class Trajectory(ReadOnlyArrays):
             np.diff(rows["cycle"]) * self._cycle_length + np.diff(rows["time"]),
             self.duration - begins[-1],
         )
-        found = np.empty((4 * len(rows) + 16, 3))
-        count = resample.turns(self._numbers, rows, lasts, found)
-        if count > len(found):
-            found = np.empty((count, 3))
-            resample.turns(self._numbers, rows, lasts, found)
+        values = np.empty((4 * len(rows) + 16, 3))
+        count = resample.turns(self._numbers, rows, lasts, values)
+        if count > len(values):
+            values = np.empty((count, 3))
+            resample.turns(self._numbers, rows, lasts, values)
         peaks = np.empty(count, TURN)
-        peaks["time"] = begins[found[:count, 0].astype(int)] + found[:count, 1]
-        peaks["angle"] = found[:count, 2]
+        peaks["time"] = begins[values[:count, 0].astype(int)] + values[:count, 1]
+        peaks["angle"] = values[:count, 2]
         return read_only(peaks)
 
     def at(self, times: Any) -> tuple[Any, Any]:

@@ -178,8 +178,8 @@ class Validity:
     --------
     >>> from rocking import Block, simulate
     >>> block = Block(height=2.0, width=0.5)
-    >>> found = simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block)
-    >>> until, friction, reaction, slender = str(found).splitlines()
+    >>> result = simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block)
+    >>> until, friction, reaction, slender = str(result).splitlines()
     >>> print(until)
     assessed up to τ = 15.5003, where overturning is proved
     >>> print(friction)
@@ -300,7 +300,7 @@ def validity(motion: Trajectory, block: Block, *, full: bool = False) -> Validit
     angle = largest_angle(motion, block, until)
     slender = motion.system.critical_angle is None
     moment_error, forcing_error = slender_errors(block.critical_angle, angle) if slender else (0.0, 0.0)
-    found = Validity(
+    result = Validity(
         until=until,
         overturned=motion.overturning is not None,
         friction=None if friction == NOTHING else abs(friction.value),
@@ -316,8 +316,8 @@ def validity(motion: Trajectory, block: Block, *, full: bool = False) -> Validit
     )
     if full:
         outcome, reached = full_block(motion, block)
-        found = evolve(found, full_outcome=outcome, full_angle=block.critical_angle * reached)
-    return evolve(found, warnings=tuple(warnings(found, motion, block, leaning)))
+        result = evolve(result, full_outcome=outcome, full_angle=block.critical_angle * reached)
+    return evolve(result, warnings=tuple(warnings(result, motion, block, leaning)))
 
 
 def full_block(motion: Trajectory, block: Block) -> tuple[Outcome, float]:
@@ -379,18 +379,19 @@ def largest_angle(motion: Trajectory, block: Block, until: float) -> float:
     return float(np.max(np.abs(np.concatenate(angles)))) * block.critical_angle
 
 
-def warnings(found: Validity, motion: Trajectory, block: Block, leaning: Arcs) -> Iterator[str]:
+def warnings(result: Validity, motion: Trajectory, block: Block, leaning: Arcs) -> Iterator[str]:
     """Yield one sentence for each assumption that does not hold, and for each excluded quantity."""
-    if found.overturned and found.reaction is None:
+    if result.overturned and result.reaction is None:
         yield "sliding and uplift are not assessed, because overturning is certain from the start"
-    if found.friction is not None and ORDINARY_FRICTION < found.friction < math.inf:
-        at = f"({found.friction_source}, {found.instant(found.friction_time)})"
-        yield f"sliding: a coefficient of friction of at least {found.friction:.3g} is required {at}"
-    if found.reaction is not None and found.reaction <= 0:
-        yield f"base reaction: {found.reaction:.3g} Mg at {found.instant(found.reaction_time)}; the base would have to pull the block down"
+    if result.friction is not None and ORDINARY_FRICTION < result.friction < math.inf:
+        at = f"({result.friction_source}, {result.instant(result.friction_time)})"
+        yield f"sliding: a coefficient of friction of at least {result.friction:.3g} is required {at}"
+    if result.reaction is not None and result.reaction <= 0:
+        at = result.instant(result.reaction_time)
+        yield f"base reaction: {result.reaction:.3g} Mg at {at}; the base would have to pull the block down"
     hit = float(np.min(impact_restitutions(motion)[1], initial=1.0))
     full = motion.system.critical_angle is not None
-    yield from block_warnings(block, motion.system.forcing.largest, hit, found.angle, full=full)
+    yield from block_warnings(block, motion.system.forcing.largest, hit, result.angle, full=full)
     if motion.brace_hits:
         yield f"brace impacts: {motion.brace_hits}, not assessed, because the base reactions depend on the height of the brace"
     if leaning.starts.size:

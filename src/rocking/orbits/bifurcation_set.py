@@ -53,8 +53,8 @@ class BifurcationSet(Result):
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
-    >>> found = rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
-    >>> [(curve.kind, curve.impacts) for curve in found.curves]
+    >>> result = rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
+    >>> [(curve.kind, curve.impacts) for curve in result.curves]
     [('period-doubling', 2), ('symmetry-breaking', 2)]
     """
 
@@ -73,9 +73,9 @@ class BifurcationSet(Result):
 
     def __str__(self) -> str:
         counts = Counter(curve.kind for curve in self.curves)
-        found = ", ".join(f"{number} of {kind}" for kind, number in counts.items()) or "none"
+        result = ", ".join(f"{number} of {kind}" for kind, number in counts.items()) or "none"
         lost = f"; {counted(self.not_followed, 'special point')} not followed" if self.not_followed else ""
-        return f"bifurcation curves of orbits up to period {self.max_period}: {found}{lost}"
+        return f"bifurcation curves of orbits up to period {self.max_period}: {result}{lost}"
 
 
 def bifurcation_set(

@@ -29,7 +29,7 @@ from rocking.orbits.event_chain import (
     solved,
     states,
 )
-from rocking.orbits.grazing import Touch, grazing_at
+from rocking.orbits.grazing import GrazingContact, grazing_at
 from rocking.orbits.parent_branch import special_points
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def table(rows: np.ndarray, facts: np.ndarray, mirrored: bool) -> NDArray[np.voi
 Point = TypeVar("Point")
 
 
-class Half(NamedTuple, Generic[Point]):
+class HalfBranch(NamedTuple, Generic[Point]):
     """Branch in one direction from its first point."""
 
     points: list[Point]
@@ -117,7 +117,9 @@ class Half(NamedTuple, Generic[Point]):
     end: str
 
 
-def joined(back: Half[Point], on: Half[Point]) -> tuple[tuple[Point, ...], list[tuple[str, Point, int]]]:
+def joined(
+    back: HalfBranch[Point], on: HalfBranch[Point]
+) -> tuple[tuple[Point, ...], list[tuple[str, Point, int]]]:
     """Return the points of a branch in order, and its special points with their indices there."""
     last = len(back.points) - 1
     specials = [(kind, point, last + 1 - index) for kind, point, index in reversed(back.specials)]
@@ -185,7 +187,7 @@ class SpecialPoint:
     index: int
     _chain: Chain | None = field(repr=False)  # None for a full block
     _row: np.ndarray = field(repr=False)
-    _touch: Touch | None = field(default=None, repr=False)
+    _touch: GrazingContact | None = field(default=None, repr=False)
     _origin: Origin | None = field(default=None, repr=False)
 
     def __str__(self) -> str:
@@ -389,10 +391,10 @@ class Branch(ReadOnlyArrays, Result):
             of(float(end)) for end in (self.points["parameter"].min(), self.points["parameter"].max())
         )
         symmetry = "symmetric" if self.symmetric else "asymmetric"
-        found = ", ".join(f"{one.kind} at {of(one.parameter):.6g}{unit}" for one in self.special)
+        result = ", ".join(f"{one.kind} at {of(one.parameter):.6g}{unit}" for one in self.special)
         return (
             f"branch of {symmetry} orbits of period {self.period}, {name} {low:.6g} to {high:.6g}{unit}, "
-            f"{len(self)} points, {self._stable_ranges(of, unit)}: {found or 'no special point'}; "
+            f"{len(self)} points, {self._stable_ranges(of, unit)}: {result or 'no special point'}; "
             f"ends: {self.ends[0]} | {self.ends[1]}"
         )
 
@@ -432,11 +434,11 @@ SAME_PARAMETER, SAME_PHASE = 1e-9, 1e-5
 
 def distinct(points: Iterable[SpecialPoint]) -> tuple[SpecialPoint, ...]:
     """Return the special points of a branch, each at its first passage."""
-    found: list[SpecialPoint] = []
+    rows: list[SpecialPoint] = []
     for point in points:
-        if not any(_same(point, other) for other in found):
-            found.append(point)
-    return tuple(found)
+        if not any(_same(point, other) for other in rows):
+            rows.append(point)
+    return tuple(rows)
 
 
 def _same(one: SpecialPoint, other: SpecialPoint) -> bool:

@@ -44,8 +44,8 @@ class Cascade(ReadOnlyArrays, Result):
     >>> system = rk.System(rk.Harmonic(amplitude=10.46, period=1.721328), restitution=0.8)
     >>> orbit = rk.classify(system).orbit
     >>> doubling = rk.continue_orbit(orbit, "amplitude", (10.3, 10.9)).special[0]
-    >>> found = rk.cascade(doubling, (10.3, 10.9), doublings=6)
-    >>> found.periods.tolist(), found.ratios.round(2).tolist()
+    >>> result = rk.cascade(doubling, (10.3, 10.9), doublings=6)
+    >>> result.periods.tolist(), result.ratios.round(2).tolist()
     ([1, 2, 4, 8, 16, 32], [6.8, 4.93, 4.69, 4.67])
     """
 
@@ -157,11 +157,11 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
     if special.kind != "period-doubling":
         raise Refusal("special", "be a period doubling", special.kind)
     low, high = check_range(special.name, bounds)
-    wanted = whole("doublings", doublings, 2, 10)
-    found, around, end = [special], (low, high), "number of period doublings wanted"
-    while len(found) < wanted:
+    requested = whole("doublings", doublings, 2, 10)
+    rows, around, end = [special], (low, high), "number of period doublings wanted"
+    while len(rows) < requested:
         for bounds in (around, (low, high)):
-            (branch,) = switch_branch(found[-1], bounds)
+            (branch,) = switch_branch(rows[-1], bounds)
             following = [
                 one
                 for one in branch.special
@@ -172,10 +172,10 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
         else:
             end = f"no period doubling on the branch of period {branch.period}: {branch.ends[1]}"
             break
-        found.append(min(following, key=lambda one: one.index))
-        width = WIDTH * abs(found[-1].parameter - found[-2].parameter)
-        around = max(low, found[-1].parameter - width), min(high, found[-1].parameter + width)
-    return Cascade(tuple(found), end)
+        rows.append(min(following, key=lambda one: one.index))
+        width = WIDTH * abs(rows[-1].parameter - rows[-2].parameter)
+        around = max(low, rows[-1].parameter - width), min(high, rows[-1].parameter + width)
+    return Cascade(tuple(rows), end)
 
 
 def _limit(values: np.ndarray) -> float:

@@ -99,12 +99,12 @@ def coefficients_of(rows: CurveRows) -> np.ndarray:
 
 def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
     """Return the points of codimension two of a curve, in order along it."""
-    found = []
+    members = []
     for test in _tests(rows):
         for part in find_brackets(rows, test):
             point = locate_zero(rows, test, part)
             if point is not None:
-                found.append(_point(rows, test.kind, *point, part.place + 1))
+                members.append(_point(rows, test.kind, *point, part.place + 1))
     for end, inwards in zip(rows.ends, (rows.rows, rows.rows[::-1]), strict=True):
         place = 0 if inwards is rows.rows else len(rows.rows) - 1
         if end == End.GRAZED:
@@ -113,12 +113,12 @@ def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
             if grazed is not None:
                 kind = "double-grazing" if _name(rows) == "grazing" else f"{_name(rows)}-grazing"
                 kind = kind if grazed.kind == "grazing" else grazed.kind
-                found.append(_point(grazed.rows, kind, grazed.row, grazed.errors, place))
+                members.append(_point(grazed.rows, kind, grazed.row, grazed.errors, place))
         elif end == End.MERGED:
             merger = degenerate_end(rows, inwards)
             if merger is not None:
-                found.append(_point(merger.rows, merger.kind, merger.row, merger.errors, place))
-    return tuple(sorted(found, key=lambda one: one.index))
+                members.append(_point(merger.rows, merger.kind, merger.row, merger.errors, place))
+    return tuple(sorted(members, key=lambda one: one.index))
 
 
 def _name(rows: CurveRows) -> str:

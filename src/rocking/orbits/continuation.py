@@ -95,14 +95,14 @@ def begun(
     special: SpecialPoint, follow: Callable[[Chain, arclength.Tangent], int]
 ) -> tuple[Chain, arclength.Tangent] | None:
     """Return the chain of the other branch, and a point with a direction from which ``follow`` finds it; None without one."""
-    found = beginning(special)
-    if found is None:
+    result = beginning(special)
+    if result is None:
         return None
     for off in OFFS:
-        for direction in found.directions:
-            start = arclength.Tangent(found.row + off * direction, direction)
-            if follow(found.chain, start):
-                return found.chain, start
+        for direction in result.directions:
+            start = arclength.Tangent(result.row + off * direction, direction)
+            if follow(result.chain, start):
+                return result.chain, start
     return None
 
 
@@ -298,12 +298,12 @@ def _other_side(
         problem = problem_of(chain, [special.name], [bounds], step, [high - low])
         return _follow(problem, start.point, start.direction, most)
 
-    found = begun(special, lambda chain, start: len(follow(chain, start, 1).table.rows))
-    if found is None:
+    result = begun(special, lambda chain, start: len(follow(chain, start, 1).table.rows))
+    if result is None:
         return ()
-    half = follow(*found, most)
+    half = follow(*result, most)
     changes = transition(special, float(half.table.rows[0, -1]))
-    return (branch_of(found[0], special.name, half.table, (f"grazing: {changes}", ENDS[half.end])),)
+    return (branch_of(result[0], special.name, half.table, (f"grazing: {changes}", ENDS[half.end])),)
 
 
 def _first_direction(problem: arclength.Problem, row: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:
@@ -344,8 +344,8 @@ class _Half(NamedTuple):
 def _follow(problem: arclength.Problem, y: np.ndarray, direction: np.ndarray, most: int) -> _Half:
     """Follow a branch in one direction from an orbit."""
     table = branch_table(len(y), most, MAX_SPECIAL)
-    count, found, end = kernel.follow(problem, arclength.Tangent(y, direction), table)
-    counts = count, count, found, found
+    count, result, end = kernel.follow(problem, arclength.Tangent(y, direction), table)
+    counts = count, count, result, result
     return _Half(kernel.BranchTable(*(part[:n].copy() for part, n in zip(table, counts, strict=True))), end)
 
 

@@ -110,10 +110,10 @@ def degenerate_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     inwards : ndarray, shape (n, k + 2)
         Its points, beginning at this end.
     """
-    parent, found = parent_of(rows.chain), _extrapolate_merger(inwards, rows)
-    if parent is None or found is None:
+    parent, result = parent_of(rows.chain), _extrapolate_merger(inwards, rows)
+    if parent is None or result is None:
         return None
-    far, share = found
+    far, share = result
     other = rows._replace(chain=parent, condition=CONDITION)
     chord = mean_halves(inwards[0], parent) - mean_halves(inwards[far], parent)
     start = other.corrected(mean_halves(inwards[far], parent), chord / np.linalg.norm(chord))
@@ -140,8 +140,8 @@ def zero_between(
         part = rows._replace(rows=np.stack([start, stop]))
         (first, last), directions = test.values(part, part.rows)
         if first * last < 0.0:
-            found = locate_zero(part, test, Bracket(0, 0.0, 1.0, max(abs(first), abs(last)), directions[0]))
-            return None if found is None else CurveEnd(test.kind, part, *found)
+            result = locate_zero(part, test, Bracket(0, 0.0, 1.0, max(abs(first), abs(last)), directions[0]))
+            return None if result is None else CurveEnd(test.kind, part, *result)
     return None
 
 
@@ -174,9 +174,9 @@ def grazing_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     if len(inwards) < 2:
         return None
     for search in (_merged_end, _vanished_end, _touching_end):
-        found = search(rows, inwards)
-        if found is not None:
-            return found
+        result = search(rows, inwards)
+        if result is not None:
+            return result
     return None
 
 
@@ -189,10 +189,10 @@ def _merged_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     if rows.condition.kind != Special.GRAZING:
         return None
     own = _locally(rows, inwards[0]).condition
-    found = _half_of(rows.chain, own, inwards[0])
-    if found is None:
+    result = _half_of(rows.chain, own, inwards[0])
+    if result is None:
         return None
-    parent, touch, near = found
+    parent, touch, near = result
     kind = "symmetry-breaking" if parent.mirrored else "period-doubling"
     other = rows._replace(chain=parent, condition=touch, local=True)
     return _around(other, Test(f"{kind}-grazing", lambda of, at: multiplier(of, at, 1.0)), near)
@@ -220,9 +220,9 @@ def _vanished_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
         other, test = rows._replace(chain=kept, condition=touch.condition, local=True), DEGENERATE_GRAZING
         if rows.condition.kind == Special.GRAZING:
             own = _without(_locally(rows, inwards[0]).condition, chain, kept)
-            found = _half_of(kept, touch.condition, near)
-            if found is not None:
-                parent, condition, near = found
+            result = _half_of(kept, touch.condition, near)
+            if result is not None:
+                parent, condition, near = result
                 other = other._replace(chain=parent, condition=condition)
             else:
                 other = other._replace(condition=own)
@@ -241,9 +241,9 @@ def _touching_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     here = _locally(rows, inwards[0])
     chord = _shortest(rows, inwards[0] - inwards[1])
     for contact in _contacts(here, inwards[0]):
-        found = zero_between(here, _touches(here, contact), inwards[0], chord, AHEAD)
-        if found is not None:
-            return found
+        result = zero_between(here, _touches(here, contact), inwards[0], chord, AHEAD)
+        if result is not None:
+            return result
     return None
 
 
@@ -260,9 +260,9 @@ def _around(rows: CurveRows, test: Test, near: np.ndarray) -> CurveEnd | None:
         other = rows.corrected(off, across)
         if other is None:
             continue
-        found = zero_between(rows, test, start, _shortest(rows, other - start), AROUND)
-        if found is not None:
-            return found
+        result = zero_between(rows, test, start, _shortest(rows, other - start), AROUND)
+        if result is not None:
+            return result
     return None
 
 
@@ -316,8 +316,8 @@ def _clearance_of(contact: Condition) -> Callable[[CurveRows, np.ndarray], Reduc
     """Return the test function that is the clearance of a turning point."""
 
     def values(rows: CurveRows, at: np.ndarray) -> Reduced:
-        found = [grazing.clearance(rows.chain_at(row), rows.names[1], row, contact) for row in at]
-        return Reduced(np.array(found), np.ones((len(at), 1)))
+        members = [grazing.clearance(rows.chain_at(row), rows.names[1], row, contact) for row in at]
+        return Reduced(np.array(members), np.ones((len(at), 1)))
 
     return values
 
@@ -337,12 +337,12 @@ def _slopes_of_return(rows: CurveRows, at: np.ndarray) -> Reduced:
 
     With the contact, this derivative is multiplied by the inverse of its speed in the trace of the return map.
     """
-    found = []
+    members = []
     for row in at:
         chain, condition = rows.chain_at(row), rows.condition
         _, time = grazing.turning_point(chain, rows.names[1], row, condition)
-        found.append(grazing.slope_of_return(chain, rows.names[1], row, condition._replace(time=time)))
-    return Reduced(np.array(found), np.ones((len(at), 1)))
+        members.append(grazing.slope_of_return(chain, rows.names[1], row, condition._replace(time=time)))
+    return Reduced(np.array(members), np.ones((len(at), 1)))
 
 
 DEGENERATE_GRAZING = Test("degenerate-grazing", _slopes_of_return)

@@ -128,8 +128,8 @@ class _Step(NamedTuple):
 
     def value(self, share: float) -> float:
         """Return the test function at a part of the step."""
-        (found,), (along,) = self.test.values(self.rows, self.at(share)[None])
-        return float(-found if self.test.kind == "cusp" and along @ self.direction < 0.0 else found)
+        (result,), (along,) = self.test.values(self.rows, self.at(share)[None])
+        return float(-result if self.test.kind == "cusp" and along @ self.direction < 0.0 else result)
 
     @staticmethod
     def may_hide(ends: tuple[float, float], slopes: tuple[float, float]) -> bool:

@@ -133,13 +133,13 @@ def plane(names: tuple[str, str], points: np.ndarray) -> Variables:
     return {name: coordinate_of("point", name, values) for name, values in zip(names, points.T, strict=True)}
 
 
-def of_curves(found: BifurcationSet) -> xr.Dataset:
+def of_curves(result: BifurcationSet) -> xr.Dataset:
     """Return a bifurcation set as a dataset along `point` and `curve`."""
     import xarray as xr
 
-    curves = found.curves
+    curves = result.curves
     points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in curves)])
-    special = special_points(found.names, [one for curve in curves for one in curve.special])
+    special = special_points(result.names, [one for curve in curves for one in curve.special])
     number = np.repeat(np.arange(len(curves)), [len(curve.special) for curve in curves])
     special["special_curve"] = number, "number of the curve of the special point"
     of_curve = {
@@ -154,12 +154,12 @@ def of_curves(found: BifurcationSet) -> xr.Dataset:
         ),
     }
     attributes = described("Bifurcation set") | {
-        **fixed_quantities(found.system, *found.names),
-        "max_period": found.max_period,
-        "not_followed": found.not_followed,
+        **fixed_quantities(result.system, *result.names),
+        "max_period": result.max_period,
+        "not_followed": result.not_followed,
     }
     variables = along("point", {"curve_number": numbers_of(curves)}) | along("curve", of_curve)
-    return xr.Dataset(variables | along("special", special), plane(found.names, points), attributes)
+    return xr.Dataset(variables | along("special", special), plane(result.names, points), attributes)
 
 
 def numbers_of(curves: Sequence[Any]) -> tuple[np.ndarray, str]:
@@ -168,36 +168,36 @@ def numbers_of(curves: Sequence[Any]) -> tuple[np.ndarray, str]:
     return np.repeat(np.arange(len(curves)), lengths), "number of the curve"
 
 
-def of_cascade(found: Cascade) -> xr.Dataset:
+def of_cascade(result: Cascade) -> xr.Dataset:
     """Return a cascade of period doublings as a dataset along `doubling`."""
     import xarray as xr
 
-    first = found.special[0]
-    ratios = np.full(len(found.special), np.nan)
-    ratios[1:-1] = found.ratios
-    accumulation, error = found.accumulation
+    first = result.special[0]
+    ratios = np.full(len(result.special), np.nan)
+    ratios[1:-1] = result.ratios
+    accumulation, error = result.accumulation
     ratio = ratios, "distance to the previous period doubling over that to the next"
     attributes = described("Cascade of period doublings") | {
         **fixed_quantities(first.orbit.system, first.name),
         "parameter": first.name,
         f"accumulation_{first.name}": accumulation,
         f"accumulation_{first.name}_error": error,
-        "end": found.end,
+        "end": result.end,
     }
-    variables = along("doubling", {"ratio": ratio, **facts([one.orbit for one in found.special])})
-    coordinate = coordinate_of("doubling", first.name, found.values)
+    variables = along("doubling", {"ratio": ratio, **facts([one.orbit for one in result.special])})
+    coordinate = coordinate_of("doubling", first.name, result.values)
     return xr.Dataset(variables, {first.name: coordinate}, attributes)
 
 
-def of_transition(found: GrazingTransition) -> xr.Dataset:
+def of_transition(result: GrazingTransition) -> xr.Dataset:
     """Return the transition at a grazing as a dataset along the parameter."""
     import xarray as xr
 
-    special, verdicts = found.special, found.verdicts
+    special, verdicts = result.special, result.verdicts
     name = special.name
-    order, order_error = found.order
+    order, order_error = result.order
     columns = {
-        "distance": (found.distances, "relative distance of the parameter from the grazing"),
+        "distance": (result.distances, "relative distance of the parameter from the grazing"),
         "orbit_period": (
             [one.period or 0 for one in verdicts],
             "forcing cycles per response period; 0 if not periodic",
@@ -207,20 +207,20 @@ def of_transition(found: GrazingTransition) -> xr.Dataset:
             numbers([one.exponent_error for one in verdicts]),
             "error of the largest Lyapunov exponent per tau",
         ),
-        "nearest": (found.nearest, "smallest distance of the attractor from the grazing orbit"),
-        "farthest": (found.farthest, "largest distance of the attractor from the grazing orbit"),
+        "nearest": (result.nearest, "smallest distance of the attractor from the grazing orbit"),
+        "farthest": (result.farthest, "largest distance of the attractor from the grazing orbit"),
     }
     kinds = kinds_of(name, [str(one.kind) for one in verdicts], "type of the response")
     attributes = described("Transition at a grazing") | {
         **fixed_quantities(special.orbit.system, name),
         f"grazing_{name}": special.parameter,
-        "orbits": found.orbits,
-        "transition": found.kind,
+        "orbits": result.orbits,
+        "transition": result.kind,
         "order": order,
         "order_error": order_error,
         "section_phase": special.orbit.phase,
     }
-    coordinate = coordinate_of(name, name, found.values)
+    coordinate = coordinate_of(name, name, result.values)
     return xr.Dataset(along(name, columns) | {"kind": kinds}, {name: coordinate}, attributes)
 
 
@@ -246,34 +246,36 @@ def points_of(curves: Sequence[Manifold], since: str) -> Variables:
     return along("point", of_points) | along("curve", of_curves)
 
 
-def of_saddles(found: SaddleManifolds) -> xr.Dataset:
+def of_saddles(result: SaddleManifolds) -> xr.Dataset:
     """Return the manifolds of both saddle orbits as a dataset along `point`, `curve` and `saddle`."""
     import xarray as xr
 
     saddles = {
-        "saddle_angle": (found.saddles[:, 0], "angle of the saddle orbit"),
-        "saddle_velocity": (found.saddles[:, 1], "angular velocity of the saddle orbit"),
+        "saddle_angle": (result.saddles[:, 0], "angle of the saddle orbit"),
+        "saddle_velocity": (result.saddles[:, 1], "angular velocity of the saddle orbit"),
     }
-    curves = points_of((*found.unstable, *found.stable), "from or to a small distance from the saddle orbit")
+    curves = points_of(
+        (*result.unstable, *result.stable), "from or to a small distance from the saddle orbit"
+    )
     variables = curves | along("saddle", saddles)
     attributes = described("Manifolds of the saddle orbits") | {
-        **quantities(found.system),
-        "section_phase": found.phase,
-        "cycles": found.cycles,
+        **quantities(result.system),
+        "section_phase": result.phase,
+        "cycles": result.cycles,
     }
     return xr.Dataset(variables, attrs=attributes)
 
 
-def of_manifolds(found: OrbitManifolds) -> xr.Dataset:
+def of_manifolds(result: OrbitManifolds) -> xr.Dataset:
     """Return the manifolds of an orbit as a dataset along `point`, `curve` and `orbit_point`."""
     import xarray as xr
 
-    curves = (*found.unstable, *found.stable)
+    curves = (*result.unstable, *result.stable)
     # Two halves at each point of the orbit, one after another, first of the unstable manifold.
-    starts = np.arange(len(curves)) // 2 % len(found.points)
+    starts = np.arange(len(curves)) // 2 % len(result.points)
     orbit = {
-        "orbit_angle": (found.points[:, 0], "angle of the orbit"),
-        "orbit_velocity": (found.points[:, 1], "angular velocity of the orbit"),
+        "orbit_angle": (result.points[:, 0], "angle of the orbit"),
+        "orbit_velocity": (result.points[:, 1], "angular velocity of the orbit"),
     }
     begins = starts, "number of the point of the orbit where the curve begins"
     variables = {
@@ -282,30 +284,30 @@ def of_manifolds(found: OrbitManifolds) -> xr.Dataset:
         **along("orbit_point", orbit),
     }
     attributes = described("Manifolds of a periodic orbit") | {
-        **quantities(found.orbit.system),
-        "orbit_period": found.orbit.period,
-        "section_phase": found.phase,
-        "wanted_length": found.wanted,
+        **quantities(result.orbit.system),
+        "orbit_period": result.orbit.period,
+        "section_phase": result.phase,
+        "wanted_length": result.wanted,
     }
     return xr.Dataset(variables, attrs=attributes)
 
 
-def of_orbits(found: Orbits) -> xr.Dataset:
+def of_orbits(result: Orbits) -> xr.Dataset:
     """Return periodic orbits as a dataset along `orbit`."""
     import xarray as xr
 
     columns = {
-        **facts(found, start=True),
-        "hits": (np.array(found.hits, int), "initial guesses that led to the orbit"),
+        **facts(result, start=True),
+        "hits": (np.array(result.hits, int), "initial guesses that led to the orbit"),
         "proved": (
-            np.array([one.proof is not None and one.proof.proved for one in found], bool),
+            np.array([one.proof is not None and one.proof.proved for one in result], bool),
             "whether the orbit is proved",
         ),
     }
     attributes = described("Periodic orbits") | {
-        **quantities(found.system),
-        "max_period": found.max_period,
-        "starts": found.starts,
-        "settled": found.settled,
+        **quantities(result.system),
+        "max_period": result.max_period,
+        "starts": result.starts,
+        "settled": result.settled,
     }
     return xr.Dataset(along("orbit", columns), attrs=attributes)

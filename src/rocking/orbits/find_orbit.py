@@ -224,12 +224,12 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     if impacts + brace_hits == 0:
         return evolve(orbit, events=saddle_events(system, orbit.phase, orbit.state))
     chain = chain_of(orbit)
-    found = solved(chain, "amplitude", system.periodic.amplitude, chain.phases)
-    if not found.found:
+    result = solved(chain, "amplitude", system.periodic.amplitude, chain.phases)
+    if not result.found:
         return _with_multipliers(orbit) if orbit.residual <= SAME else None
-    half = mirrored_half(chain._replace(phases=found.phases[:-1]))
+    half = mirrored_half(chain._replace(phases=result.phases[:-1]))
     if half is not None:
-        chain, found = half, solved(half, "amplitude", system.periodic.amplitude, half.phases)
-        if not found.found:
+        chain, result = half, solved(half, "amplitude", system.periodic.amplitude, half.phases)
+        if not result.found:
             return _with_multipliers(orbit) if orbit.residual <= SAME else None
-    return orbit_of(chain, "amplitude", found.phases, found.trace, found.determinant)
+    return orbit_of(chain, "amplitude", result.phases, result.trace, result.determinant)

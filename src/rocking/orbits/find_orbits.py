@@ -156,8 +156,8 @@ class Orbits(Sequence[Orbit], Result):
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.find_orbits(system, 1)
-    >>> len(found), found.settled, found[0].stable
+    >>> result = rk.find_orbits(system, 1)
+    >>> len(result), result.settled, result[0].stable
     (3, True, True)
     """
 
@@ -198,9 +198,9 @@ class Orbits(Sequence[Orbit], Result):
         stable = f"{counts[Stability.STABLE]} of them stable"
         if counts[Stability.NEUTRAL]:
             stable += f", {counts[Stability.NEUTRAL]} neutral"
-        shown = [orbit.proof for orbit in self if orbit.proof is not None]
-        if shown:
-            stable += f", {sum(proof.proved for proof in shown)} of them proved"
+        proved = [orbit.proof for orbit in self if orbit.proof is not None]
+        if proved:
+            stable += f", {sum(proof.proved for proof in proved)} of them proved"
         least = min(self.hits, default=0)
         last = (
             "the last half of them found no new orbit"

@@ -66,8 +66,8 @@ class FrequencyResponse(ReadOnlyArrays, Result):
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.frequency_response(system, period=[0.5, 1.0], modes=(1,))
-    >>> found.rest["kind"].tolist(), len(found.of(1))
+    >>> result = rk.frequency_response(system, period=[0.5, 1.0], modes=(1,))
+    >>> result.rest["kind"].tolist(), len(result.of(1))
     (['periodic', 'periodic'], 1)
     """
 
@@ -188,13 +188,13 @@ class FrequencyResponse(ReadOnlyArrays, Result):
 
     def _special_points(self) -> dict[str, tuple[Any, ...]]:
         """Return the columns of the special points of all branches."""
-        found = [(number, one) for number, branch in enumerate(self.branches) for one in branch.special]
+        rows = [(number, one) for number, branch in enumerate(self.branches) for one in branch.special]
         name = self.parameter
         return {
-            "special_branch": (np.array([number for number, _ in found], int), "number of the branch"),
-            "special_kind": (np.array([one.kind for _, one in found], "U17"), "type of the special point"),
+            "special_branch": (np.array([number for number, _ in rows], int), "number of the branch"),
+            "special_kind": (np.array([one.kind for _, one in rows], "U17"), "type of the special point"),
             f"special_{name}": (
-                np.array([one.parameter for _, one in found], float),
+                np.array([one.parameter for _, one in rows], float),
                 f"{name} of the special point",
             ),
         }
@@ -205,13 +205,13 @@ class FrequencyResponse(ReadOnlyArrays, Result):
         return np.where(np.isnan(self.rest["steady_peak"]), self.rest["peak"], self.rest["steady_peak"])
 
     def __str__(self) -> str:
-        found = "; ".join(_told(n, self.of(n)) for n in self.modes)
+        result = "; ".join(_told(n, self.of(n)) for n in self.modes)
         kinds = Counter(str(kind) for kind in self.rest["kind"])
         rest = ", ".join(f"{number:,} {kind}" for kind, number in kinds.most_common())
         return (
             f"frequency response at amplitude {self.system.periodic.amplitude:.6g}, "
             f"restitution {self.system.restitution:.6g}, {self.parameter} "
-            f"{self.values[0]:.6g} to {self.values[-1]:.6g}: {found}; from rest {rest}"
+            f"{self.values[0]:.6g} to {self.values[-1]:.6g}: {result}; from rest {rest}"
         )
 
 
@@ -285,8 +285,8 @@ def frequency_response(
     --------
     >>> import numpy as np, rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.frequency_response(system, period=np.linspace(0.5, 2.5, 9))
-    >>> print(found)
+    >>> result = rk.frequency_response(system, period=np.linspace(0.5, 2.5, 9))
+    >>> print(result)
     frequency response at amplitude 2, ...: (1, 1) 1 symmetric, 0 asymmetric, ...; (1, 3) 2 symmetric, 1 asymmetric, ...
     """
     parameter = exactly_one(period=period, frequency=frequency)

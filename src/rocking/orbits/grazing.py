@@ -50,7 +50,7 @@ MAX_CORRECTIONS = 20
 TOUCHING, TOUCHING_SPEED = 1e-11, 1e-5
 
 
-class Touch(NamedTuple):
+class GrazingContact(NamedTuple):
     """Orbit without its grazing events, and the condition of contact."""
 
     chain: Chain
@@ -63,13 +63,13 @@ class Grazing(NamedTuple):
     orbit: Orbit  # without the grazing events
     chain: Chain
     row: np.ndarray
-    touch: Touch | None  # None if no other event exists, or no contact was found
+    touch: GrazingContact | None  # None if no other event exists, or no contact was found
 
 
 def grazing_at(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     """Return the grazing at which a branch ends, accurate to rounding; if that fails, the last point of the branch."""
-    found = _solve_grazing(chain, parameter, row)
-    return found._replace(orbit=evolve(found.orbit, grazes=True))
+    result = _solve_grazing(chain, parameter, row)
+    return result._replace(orbit=evolve(result.orbit, grazes=True))
 
 
 def _solve_grazing(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
@@ -91,7 +91,7 @@ def _solve_grazing(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     return Grazing(orbit_of(chain, parameter, row, trace, determinant), chain, row, None)
 
 
-def slow_event(chain: Chain, links: np.ndarray) -> list[Touch]:
+def slow_event(chain: Chain, links: np.ndarray) -> list[GrazingContact]:
     """Return the contact at the slowest event of an orbit; none if it is not slow, or if no event remains without it."""
     arrives, times, k = np.abs(links["arrives"]), links["time"], len(chain.phases)
     slowest = int(arrives.argmin())
@@ -105,7 +105,7 @@ def slow_event(chain: Chain, links: np.ndarray) -> list[Touch]:
     chain = rotated(chain, (event + lost) % k)
     time = (chain.phases[k - lost] - chain.phases[k - lost - 1]) / chain.system.harmonic.frequency
     kept = chain._replace(kinds=chain.kinds[: k - lost].copy(), phases=chain.phases[: k - lost])
-    return [Touch(kept, Condition(Special.GRAZING, k - lost - 1, level, float(time)))]
+    return [GrazingContact(kept, Condition(Special.GRAZING, k - lost - 1, level, float(time)))]
 
 
 def rotated(chain: Chain, by: int) -> Chain:
@@ -117,12 +117,12 @@ def rotated(chain: Chain, by: int) -> Chain:
     return chain._replace(side=side, kinds=np.roll(kinds, -by), phases=phases)
 
 
-def near_contacts(chain: Chain, links: np.ndarray) -> list[Touch]:
+def near_contacts(chain: Chain, links: np.ndarray) -> list[GrazingContact]:
     """Return the turning points of the arcs that are close to the base or to a brace, the closest first.
 
     The arcs are those of the chain. In a simulation, rounding decides if the contact is an event.
     """
-    found = []
+    rows = []
     for arc, side in enumerate(sides_of(chain)):
         if links["time"][arc] < SHORT:
             continue
@@ -130,10 +130,10 @@ def near_contacts(chain: Chain, links: np.ndarray) -> list[Touch]:
         height = _heights(chain, arc, side, links["leaves"][arc], times)
         for level in (IMPACT,) if chain.system.braces is None else (IMPACT, BRACE):
             turns, gaps = _turns(chain, height, level)
-            found += [(gap, level, arc, times[turn]) for turn, gap in zip(turns, gaps, strict=True)]
+            rows += [(gap, level, arc, times[turn]) for turn, gap in zip(turns, gaps, strict=True)]
     return [
-        Touch(chain, Condition(Special.GRAZING, arc, int(level), float(time)))
-        for gap, level, arc, time in sorted(found)
+        GrazingContact(chain, Condition(Special.GRAZING, arc, int(level), float(time)))
+        for gap, level, arc, time in sorted(rows)
         if gap <= CLOSE
     ]
 
@@ -216,7 +216,7 @@ def turning_time(chain: Chain, parameter: str, row: np.ndarray, condition: Condi
     return float(times[turns[gaps.argmin()]] if len(turns) else condition.time)
 
 
-def touches_again(touch: Touch, parameter: str) -> bool:
+def touches_again(touch: GrazingContact, parameter: str) -> bool:
     """Return whether a grazing orbit touches at a second instant of its chain, as one does that is traversed twice."""
     chain, own = touch.chain, touch.condition
     row = np.append(chain.phases, value_of(chain.system, parameter))
@@ -250,7 +250,7 @@ def slope_of_return(chain: Chain, parameter: str, row: np.ndarray, touch: Condit
     return float(angle)
 
 
-def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:
+def _solved(touch: GrazingContact, parameter: str) -> tuple[GrazingContact, np.ndarray] | None:
     """Return the grazing orbit, with its phases and the value of the parameter; None if Newton's method fails."""
     chain = touch.chain
     row = special_row(

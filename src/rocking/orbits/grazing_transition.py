@@ -76,16 +76,16 @@ class GrazingTransition(ReadOnlyArrays, Result):
     >>> braces = rk.Braces(angle=0.3, restitution=0.7)
     >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=1.0), 0.8, braces)
     >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (0.5, 15.0))
-    >>> found = rk.grazing_transition(branch.special[-1])
-    >>> found.orbits, found.kind, found.attractor.period
+    >>> result = rk.grazing_transition(branch.special[-1])
+    >>> result.orbits, result.kind, result.attractor.period
     ('fold', 'jump', 1)
 
     The distance does not depend on that of the parameter, so that its exponent is 0:
 
-    >>> exponent, error = found.order
+    >>> exponent, error = result.order
     >>> abs(exponent) < 1e-3, error < 1e-3
     (True, True)
-    >>> found.to_xarray()["orbit_period"].values.tolist()
+    >>> result.to_xarray()["orbit_period"].values.tolist()
     [1, 1, 1, 1, 1]
     """
 
@@ -207,11 +207,11 @@ def grazing_transition(
     >>> import rocking as rk
     >>> braces = rk.Braces(angle=0.69, restitution=0.46)
     >>> system = rk.System(rk.Harmonic(amplitude=10.4, period=1.42), 0.79, braces)
-    >>> found = rk.find_orbits(system, 1)
-    >>> orbit = next(each for each in found if each.stable and not each.symmetric)
+    >>> result = rk.find_orbits(system, 1)
+    >>> orbit = next(each for each in result if each.stable and not each.symmetric)
     >>> branch = rk.continue_orbit(orbit, "amplitude", (10.2, 10.6))
-    >>> found = rk.grazing_transition(branch.special[0])
-    >>> found.orbits, found.kind, str(found.attractor.kind)
+    >>> result = rk.grazing_transition(branch.special[0])
+    >>> result.orbits, result.kind, str(result.attractor.kind)
     ('persistence', 'local', 'chaotic')
     """
     instance("special", special, SpecialPoint)
@@ -247,10 +247,10 @@ def _orbits(special: SpecialPoint) -> str:
     """Return the transition of the orbits: "persistence", "fold" or "none"."""
     low, high = ALLOWED[special.name]
     around = special.parameter * (1.0 - NEARBY), special.parameter * (1.0 + NEARBY)
-    found = switch_branch(special, (max(low, around[0]), min(high, around[1])), max_points=2)
-    if not found:
+    result = switch_branch(special, (max(low, around[0]), min(high, around[1])), max_points=2)
+    if not result:
         return "none"
-    return "persistence" if found[0].ends[0].endswith(PERSISTS) else "fold"
+    return "persistence" if result[0].ends[0].endswith(PERSISTS) else "fold"
 
 
 def _span(verdict: Verdict, orbit: Orbit) -> tuple[float, float]:

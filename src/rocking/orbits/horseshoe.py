@@ -73,8 +73,8 @@ def horseshoe(system: System, search: bool = False, max_period: int = 4) -> Hors
         return crossing
     max_period = whole("max_period", max_period, 1, MAX_PERIOD)
     for period in range(1, max_period + 1):  # short orbits are found sooner, and few of them suffice
-        found = find_orbits(system, period)
-        unstable = [orbit for orbit in found if orbit.stability is Stability.UNSTABLE]
+        result = find_orbits(system, period)
+        unstable = [orbit for orbit in result if orbit.stability is Stability.UNSTABLE]
         shift: Horseshoe = module("horseshoe").word_shift_of(system, unstable)
         if shift.proved:
             break

@@ -86,8 +86,8 @@ class Reduced(NamedTuple):
 
 def chains_of(chain: Chain, names: tuple[str, str], rows: np.ndarray) -> Chains:
     """Return the chains at rows of phases and two parameters, shape (n, k + 2)."""
-    found = NO_BRACES | quantities(chain.system)
-    parameters = {name: np.full((len(rows), 1), value) for name, value in found.items()}
+    result = NO_BRACES | quantities(chain.system)
+    parameters = {name: np.full((len(rows), 1), value) for name, value in result.items()}
     for name, values in zip(names, rows.T[-2:], strict=True):
         parameters[name] = values[:, None]
         if name in ("period", "frequency"):

@@ -135,10 +135,10 @@ def _overturnings(direction: str, fell: np.ndarray, values: np.ndarray, unit: st
     how = {"up": "swept up", "down": "swept down", "rest": "each from the initial state"}[direction]
     if not fell.any():
         return f"{how}, never overturned"
-    found = values[fell]
-    if len(found) == 1:
-        return f"{how}, overturned at {found[0]:.6g}{unit}"
-    return f"{how}, overturned at {len(found):,} (from {found[0]:.6g} to {found[-1]:.6g}{unit})"
+    result = values[fell]
+    if len(result) == 1:
+        return f"{how}, overturned at {result[0]:.6g}{unit}"
+    return f"{how}, overturned at {len(result):,} (from {result[0]:.6g} to {result[-1]:.6g}{unit})"
 
 
 SWEEPS = {"up": ("up",), "down": ("down",), "both": ("up", "down"), "rest": ("rest",)}
@@ -334,5 +334,5 @@ def _run(
 
 def _ascending(lanes: list[_Lane], way: str, name: str) -> np.ndarray:
     """Return one output of a sweep, over ascending values."""
-    found = np.concatenate([getattr(lane, name) for lane in lanes if lane.way == way])
-    return found[::-1] if way == "down" else found
+    values = np.concatenate([getattr(lane, name) for lane in lanes if lane.way == way])
+    return values[::-1] if way == "down" else values

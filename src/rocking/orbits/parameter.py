@@ -29,13 +29,13 @@ STEPS = 1e-6, 0.1
 
 def value_of(system: System, parameter: str) -> float:
     """Return the value of a parameter of a system."""
-    found = quantities(system)
-    if parameter not in found:
+    result = quantities(system)
+    if parameter not in result:
         needs = "a critical angle" if parameter == "critical_angle" else "braces"
         raise ValueError(
             f"{parameter} needs a system with {needs}; got one without (give {MISSING[parameter]})"
         )
-    return found[parameter]
+    return result[parameter]
 
 
 def with_value(system: System, parameter: str, value: float) -> System:
@@ -68,18 +68,18 @@ def fixed_quantities(system: System, *varied: str) -> dict[str, float]:
     """Return the parameters of a system that do not vary, by name. A varied brace angle adds braces if there are none."""
     if "brace_angle" in varied:
         system = with_value(system, "brace_angle", 1.0)
-    found, left_out = quantities(system), {"frequency", *varied}
+    result, left_out = quantities(system), {"frequency", *varied}
     if "frequency" in varied:
         left_out.add("period")
-    return {name: value for name, value in found.items() if name not in left_out}
+    return {name: value for name, value in result.items() if name not in left_out}
 
 
 def check_range(parameter: str, bounds: tuple[float, float], argument: str = "bounds") -> tuple[float, float]:
     """Return the bounds of a parameter, after checking that they are ordered and within its range."""
     allowed = "be (lowest, highest), the one below the other"
     ends = pair(argument, bounds, allowed)
-    shown = f"bounds of {parameter}" if argument == "bounds" else argument
-    low, high = (within(shown, value, *ALLOWED[parameter]) for value in ends)
+    label = f"bounds of {parameter}" if argument == "bounds" else argument
+    low, high = (within(label, value, *ALLOWED[parameter]) for value in ends)
     refuse_if(not low < high, argument, allowed, bounds)
     return low, high
 

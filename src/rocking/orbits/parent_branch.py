@@ -39,17 +39,17 @@ class Found(NamedTuple):
 
 def special_points(chain: Chain, parameter: str, table: kernel.BranchTable) -> list[Found]:
     """Return the special points of a branch, with one at each passage of the branch from which it bifurcates."""
-    found = [
+    rows = [
         Found(chain, row, Special(kind), index)
         for row, (kind, index) in zip(table.specials, table.changes.tolist(), strict=True)
         if kind == Special.GRAZING or _is_zero(chain, parameter, row)
     ]
     parent = parent_of(chain)
     if parent is None:
-        return found
+        return rows
     passages: list[Found] = []
     others = []
-    for one in found:
+    for one in rows:
         near = None
         if _has_multiplier_one(one, parameter):
             near = _solved(parent, parameter, one.row, one.place, NEARLY_EQUAL)

@@ -60,10 +60,10 @@ class ResponseDiagram(ReadOnlyArrays, Result):
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.response_diagram(system, amplitude=[0.5, 2.0])
-    >>> print(found)
+    >>> result = rk.response_diagram(system, amplitude=[0.5, 2.0])
+    >>> print(result)
     response diagram over amplitude 0.5 to 2, 2 values, each from Θ = 0, Θ' = 0: 1 rest, 1 periodic (period 1)
-    >>> found.exponent.round(4).tolist(), found.rotation.tolist()
+    >>> result.exponent.round(4).tolist(), result.rotation.tolist()
     ([-inf, -0.1559], [0.0, 2.0])
     """
 
@@ -149,18 +149,18 @@ class ResponseDiagram(ReadOnlyArrays, Result):
             span = f"{values[0]:.6g} to {values[-1]:.6g}{unit}, {len(values):,} values"
         start = f"Θ = {self.start.angle:.6g}, Θ' = {self.start.velocity:.6g}"
         counts = [(kind, int((self.kind == kind.value).sum())) for kind in Kind]
-        found = ", ".join(
+        result = ", ".join(
             f"{count:,} {kind}{self._periods() * (kind is Kind.PERIODIC)}" for kind, count in counts if count
         )
-        return f"response diagram over {name} {span}, each from {start}: {found}"
+        return f"response diagram over {name} {span}, each from {start}: {result}"
 
     def _periods(self) -> str:
-        found = np.unique(self.period[self.period > 0]).tolist()
-        return f" (period{'s' * (len(found) > 1)} {', '.join(map(str, found))})"
+        values = np.unique(self.period[self.period > 0]).tolist()
+        return f" (period{'s' * (len(values) > 1)} {', '.join(map(str, values))})"
 
 
-def _numbers(given: list[float | None]) -> NDArray[np.float64]:
-    return read_only(np.array([math.nan if number is None else number for number in given]))
+def _numbers(values: list[float | None]) -> NDArray[np.float64]:
+    return read_only(np.array([math.nan if number is None else number for number in values]))
 
 
 MAX_VALUES = 100_000
@@ -240,10 +240,10 @@ def response_diagram(
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=9.0, period=1.721328), restitution=0.8)
-    >>> found = rk.response_diagram(system, amplitude=[10.2, 10.5, 10.7, 10.9])
-    >>> found.kind.tolist(), found.period.tolist()
+    >>> result = rk.response_diagram(system, amplitude=[10.2, 10.5, 10.7, 10.9])
+    >>> result.kind.tolist(), result.period.tolist()
     (['periodic', 'periodic', 'periodic', 'overturned'], [1, 2, 4, 0])
-    >>> found.rotation.tolist()
+    >>> result.rotation.tolist()
     [2.0, 2.0, 2.0, nan]
     """
     instance("system", system, System)
@@ -272,12 +272,12 @@ def response_diagram(
         verdict = classify(each, start, max_cycles, max_period)
         return verdict, mean_impacts(verdict)
 
-    found = []
+    rows = []
     with ThreadPoolExecutor() as pool, Bar(len(systems), "response diagram", shown=progress) as bar:
         for pair in pool.map(respond, systems):
-            found.append(pair)
+            rows.append(pair)
             bar.advance(1)
-    verdicts, means = zip(*found, strict=True)
+    verdicts, means = zip(*rows, strict=True)
     return ResponseDiagram(
         system=system,
         parameter=parameter,

@@ -24,7 +24,7 @@ from rocking.model.validation import Refusal
 from rocking.model.verdict import Kind
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
-from rocking.orbits.branch import ENDS, POINT, Branch, Half, SpecialPoint, joined
+from rocking.orbits.branch import ENDS, POINT, Branch, HalfBranch, SpecialPoint, joined
 from rocking.orbits.event_chain import End, clocked
 from rocking.orbits.find_orbit import SAME, orbit_from
 from rocking.orbits.parameter import value_of, with_value
@@ -51,7 +51,7 @@ BEGINS, RELEASES = ("rest", "lean"), ("lift-off", "leave")
 HITS = ("impact", "brace")
 
 
-class Held(NamedTuple):
+class RestingMotion(NamedTuple):
     """Motion from the end of a rest, or of contact with a brace, over a period, at one value of the parameter."""
 
     value: float
@@ -72,7 +72,7 @@ class Held(NamedTuple):
         """Forcing phase in the middle of the last rest."""
         return float(0.5 * (self.marks[-2] + self.marks[-1])) % math.tau
 
-    def continues(self, other: Held) -> bool:
+    def continues(self, other: RestingMotion) -> bool:
         """Return whether both motions close, with the same order of events, and nearly agree."""
         same = (self.resets, self.turns, self.symmetric) == (other.resets, other.turns, other.symmetric)
         if not (self.closes and other.closes and same):
@@ -91,22 +91,22 @@ class RestingMap:
     side: int  # 0 at the base, else the side of the brace
     before: float  # wait from the start to the end of the rest, in rad
 
-    def at(self, value: float, release: float) -> Held:
+    def at(self, value: float, release: float) -> RestingMotion:
         """Return the motion whose rest ends near a forcing phase."""
         system, begun = with_value(self.system, self.name, value), release - self.before
         angle = self.side * system.braces.angle if self.side and system.braces else 0.0
         motion = simulate(clocked(system, begun % math.tau), State(angle), cycles=self.period + 1)
         return held(motion, value, begun, angle, math.tau * self.period)
 
-    def orbit(self, point: Held) -> Orbit:
+    def orbit(self, point: RestingMotion) -> Orbit:
         """Return the orbit of a point."""
         system = with_value(self.system, self.name, point.value)
-        found = orbit_from(system, point.phase, State(point.angle), self.period)
-        assert found is not None
-        return found
+        result = orbit_from(system, point.phase, State(point.angle), self.period)
+        assert result is not None
+        return result
 
 
-def held(motion: Motion, value: float, begun: float, angle: float, whole: float) -> Held:
+def held(motion: Motion, value: float, begun: float, angle: float, whole: float) -> RestingMotion:
     """Return the data of a motion from rest that starts at a forcing phase, for a period of ``whole`` rad from its first event."""
     phases, kinds = begun + motion.system.periodic.frequency * motion.events["time"], motion.events["kind"]
     release = float(phases[0]) if len(phases) else begun
@@ -118,7 +118,7 @@ def held(motion: Motion, value: float, begun: float, angle: float, whole: float)
     closes = closes and bool(abs(events["angle"][-1] - angle) < SAME)
     speeds, hits = np.abs(events["after"]), np.flatnonzero(np.isin(kinds, HITS))
     slower = hits[:-1][(np.diff(speeds[hits]) > 0.0) & (np.diff(np.cumsum(resets)[hits]) == 0)]
-    return Held(
+    return RestingMotion(
         value=value,
         release=release,
         closes=closes,
@@ -173,15 +173,15 @@ def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: f
     )
 
 
-def _first(orbit: Orbit, name: str) -> tuple[RestingMap, Held | None]:
+def _first(orbit: Orbit, name: str) -> tuple[RestingMap, RestingMotion | None]:
     """Return the map of an orbit, and the orbit from its longest rest or contact."""
     events = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=2 * orbit.period).events
-    found = [
+    rows = [
         (float(after["time"] - one["time"]), float(after["time"]), float(one["angle"]))
         for one, after in pairwise(events)
         if one["kind"] in BEGINS and after["kind"] in RELEASES
     ]
-    lasts, time, angle = max(found, default=(0.0, 0.0, 0.0))
+    lasts, time, angle = max(rows, default=(0.0, 0.0, 0.0))
     frequency = orbit.system.periodic.frequency
     before = min(BEFORE, 0.5 * frequency * lasts)
     way = RestingMap(orbit.system, name, orbit.period, int(np.sign(angle)), before)
@@ -189,15 +189,17 @@ def _first(orbit: Orbit, name: str) -> tuple[RestingMap, Held | None]:
     return way, there if there.closes else None
 
 
-def _follow(way: RestingMap, first: Held, bounds: tuple[float, float], step: float, most: int) -> Half[Held]:
+def _follow(
+    way: RestingMap, first: RestingMotion, bounds: tuple[float, float], step: float, most: int
+) -> HalfBranch[RestingMotion]:
     """Follow a branch in one direction, the sign of ``step``, which is a part of the range."""
     (low, high), points, here = bounds, [first], first
-    specials: list[tuple[str, Held, int]] = []
+    specials: list[tuple[str, RestingMotion, int]] = []
     longest = step * (high - low)
     length = longest
     while len(points) < most:
         if here.value == (low if step < 0.0 else high):
-            return Half(points, specials, ENDS[End.RANGE])
+            return HalfBranch(points, specials, ENDS[End.RANGE])
         there = way.at(min(max(here.value + length, low), high), here.release)
         if abs(length) > SMALLEST * abs(longest) and not (
             here.continues(there) and here.continues(way.at(0.5 * (here.value + there.value), here.release))
@@ -210,15 +212,17 @@ def _follow(way: RestingMap, first: Held, bounds: tuple[float, float], step: flo
                 points.append(last)
             kind = _kind(last, there)
             if kind == SHRUNK or not there.closes or there.symmetric != last.symmetric:
-                return Half(points, specials, _end(way, kind, there))
+                return HalfBranch(points, specials, _end(way, kind, there))
             if kind is not None:
                 specials.append((kind, last, len(points)))
         points.append(there)
         here, length = there, longest if abs(2.0 * length) > abs(longest) else 2.0 * length
-    return Half(points, specials, ENDS[End.MANY])
+    return HalfBranch(points, specials, ENDS[End.MANY])
 
 
-def _bracket(way: RestingMap, here: Held, there: Held, width: float) -> tuple[Held, Held]:
+def _bracket(
+    way: RestingMap, here: RestingMotion, there: RestingMotion, width: float
+) -> tuple[RestingMotion, RestingMotion]:
     """Return the last point that continues a branch, and the first one that does not, by bisection."""
     while abs(there.value - here.value) > width:
         middle = way.at(0.5 * (here.value + there.value), here.release)
@@ -231,7 +235,7 @@ def _bracket(way: RestingMap, here: Held, there: Held, width: float) -> tuple[He
     return here, way.at(there.value, here.release)  # from the nearest end of the rest
 
 
-def _kind(last: Held, there: Held) -> str | None:
+def _kind(last: RestingMotion, there: RestingMotion) -> str | None:
     """Return what lies between two motions, or None if there is no evidence."""
     if last.continues(there):
         return None
@@ -242,7 +246,7 @@ def _kind(last: Held, there: Held) -> str | None:
     return None
 
 
-def _end(way: RestingMap, kind: str | None, there: Held) -> str:
+def _end(way: RestingMap, kind: str | None, there: RestingMotion) -> str:
     """Return the reason for an end, with the response just beyond it."""
     system = clocked(with_value(way.system, way.name, there.value), (there.release - way.before) % math.tau)
     beyond = classify(system, State(there.angle), max_cycles=CYCLES)
@@ -251,7 +255,7 @@ def _end(way: RestingMap, kind: str | None, there: Held) -> str:
     return f"{kind or 'the order of events changes'}; beyond: {beyond.orbit or beyond.kind}"
 
 
-def _table(points: tuple[Held, ...]) -> np.ndarray:
+def _table(points: tuple[RestingMotion, ...]) -> np.ndarray:
     """Return the public table of a branch."""
     rows = np.zeros(len(points), POINT)
     rows["parameter"] = [point.value for point in points]
@@ -266,7 +270,7 @@ class RestingRows(NamedTuple):
     """Points of a branch of orbits that rest."""
 
     map: RestingMap
-    points: tuple[Held, ...]
+    points: tuple[RestingMotion, ...]
 
     def orbit(self, index: int) -> Orbit:
         """Return the orbit of a point."""
@@ -274,8 +278,8 @@ class RestingRows(NamedTuple):
 
     def between(self, index: int, share: float, value: float) -> Orbit | None:
         """Return the orbit at a value of the parameter near the point a share of the way to the next one, if there is one."""
-        found = self.map.at(value, self.points[index].release)
-        return self.map.orbit(found) if found.closes else None
+        result = self.map.at(value, self.points[index].release)
+        return self.map.orbit(result) if result.closes else None
 
     def section(self, phase: float) -> np.ndarray:
         """Return Θ and Θ' of all orbits at a forcing phase in the cycles of a period, shape (points, period, 2)."""

@@ -16,7 +16,7 @@ from rocking.model.verdict import Outcome
 from rocking.motion.march_loop import monodromy
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
-from rocking.orbits.branch import ENDS, POINT, Branch, Half, SpecialPoint, joined
+from rocking.orbits.branch import ENDS, POINT, Branch, HalfBranch, SpecialPoint, joined
 from rocking.orbits.event_chain import End, clocked, multipliers_of, quiet_phase
 from rocking.orbits.find_orbit import RESTING, orbit_from
 from rocking.orbits.parameter import value_of, with_value
@@ -99,10 +99,10 @@ class ReturnMap:
         """Return the orbit in the plane through a point near it, by Newton's method; None if it does not converge."""
         unknowns = self._symmetrised(phase, near)
         for _ in range(MAX_STEPS):
-            found = self._linearised(phase, unknowns)
-            if found is None:
+            result = self._linearised(phase, unknowns)
+            if result is None:
                 return None
-            distance, derivative = found
+            distance, derivative = result
             if np.hypot(*distance) < CONVERGED:
                 return self._point(phase, unknowns, derivative)
             matrix = np.vstack([derivative, normal])
@@ -120,9 +120,9 @@ class ReturnMap:
         phase = quiet_phase(point.phase + motion.system.periodic.frequency * motion.events["time"])
         near = np.append(self.state(point, phase), point.unknowns[2])
         for normal in (np.array([0.0, 0.0, 1.0]), point.tangent):
-            found = self.corrected(phase, near, normal)
-            if found is not None:
-                return found
+            result = self.corrected(phase, near, normal)
+            if result is not None:
+                return result
         return None
 
     def state(self, point: Point, phase: float) -> np.ndarray:
@@ -134,9 +134,9 @@ class ReturnMap:
     def orbit(self, point: Point) -> Orbit:
         """Return the orbit of a point."""
         system = with_value(self.system, self.name, self.value(point.unknowns))
-        found = orbit_from(system, point.phase, _state(point.unknowns), self.period)
-        assert found is not None
-        return found
+        result = orbit_from(system, point.phase, _state(point.unknowns), self.period)
+        assert result is not None
+        return result
 
     def asymmetry(self, point: Point) -> float:
         """Return the distance of a state from that half a period later, mirrored if the period is odd."""
@@ -230,8 +230,8 @@ class MapRows(NamedTuple):
         if there.phase == here.phase:
             near += share * (there.unknowns - near)
         near[2] = (value - self.map.low) / (self.map.high - self.map.low)
-        found = self.map.corrected(here.phase, near, np.array([0.0, 0.0, 1.0]))
-        return None if found is None else self.map.orbit(found)
+        result = self.map.corrected(here.phase, near, np.array([0.0, 0.0, 1.0]))
+        return None if result is None else self.map.orbit(result)
 
     def section(self, phase: float) -> np.ndarray:
         """Return Θ and Θ' of all orbits at a forcing phase in the cycles of a period, shape (points, period, 2)."""
@@ -281,7 +281,7 @@ def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: f
     along = first.tangent if first.tangent[2] >= 0.0 else -first.tangent
     back, on = (follow(way, first, sense * along, step, most) for sense in (-1.0, 1.0))
     if back.end == ENDS[End.CLOSED]:
-        on = Half([first], [], back.end)
+        on = HalfBranch([first], [], back.end)
     points, specials = joined(back, on)
     return Branch(
         name=name,
@@ -296,7 +296,7 @@ def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: f
     )
 
 
-def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, most: int) -> Half[Point]:
+def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, most: int) -> HalfBranch[Point]:
     """Follow a branch in one direction, with steps that shrink where Newton's method fails."""
     points, specials, length = [first], [], step
     here, end = first, End.MANY
@@ -324,7 +324,7 @@ def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, mos
             break
         direction = there.tangent if there.tangent @ chord >= 0.0 else -there.tangent
         here, length = there, min(GROWTH * length, step)
-    return Half(points, specials, ENDS[end])
+    return HalfBranch(points, specials, ENDS[end])
 
 
 def advance(way: ReturnMap, here: Point, direction: np.ndarray, length: float) -> tuple[Point | None, End]:
@@ -364,14 +364,14 @@ def special_points_between(way: ReturnMap, here: Point, there: Point) -> list[tu
     turns = crossing(way, here, there, lambda point: float(point.tangent[2] * np.sign(point.tangent @ chord)))
     meets = crossing(way, here, there, lambda point: 1.0 - point.trace + point.determinant)
     doubles = crossing(way, here, there, lambda point: 1.0 + point.trace + point.determinant)
-    found: list[tuple[str, Point]] = []
+    rows: list[tuple[str, Point]] = []
     if turns is not None:
-        found.append(turn(way, turns))
+        rows.append(turn(way, turns))
     elif meets is not None and way.symmetric:
-        found.append(("symmetry-breaking", meets))
+        rows.append(("symmetry-breaking", meets))
     if doubles is not None:
-        found.append(("period-doubling", doubles))
-    return found
+        rows.append(("period-doubling", doubles))
+    return rows
 
 
 def turn(way: ReturnMap, point: Point) -> tuple[str, Point]:
@@ -389,7 +389,7 @@ def crossing(way: ReturnMap, here: Point, there: Point, test: Callable[[Point], 
     first, last = test(here), test(there)
     if first * last >= 0.0:
         return None
-    found, nearest = there, there
+    result, nearest = there, there
     for _ in range(MAX_HALVINGS):
         # never at an end of the bracket, so that it always shrinks
         share = min(max(first / (first - last), 0.05), 0.95)
@@ -401,10 +401,10 @@ def crossing(way: ReturnMap, here: Point, there: Point, test: Callable[[Point], 
         if now * first > 0.0:
             low, first = middle, now
         else:
-            high, last, found = middle, now, point
+            high, last, result = middle, now, point
         if high - low < NARROW or now == 0.0:
             break
-    return nearest if abs(test(nearest)) <= abs(test(found)) else found
+    return nearest if abs(test(nearest)) <= abs(test(result)) else result
 
 
 def table(way: ReturnMap, points: tuple[Point, ...]) -> np.ndarray:

@@ -426,10 +426,10 @@ def manifold_gap(system: System) -> float:
 
     phases = np.linspace(0.0, math.tau, SAMPLES, endpoint=False)
     best, step = float(phases[np.argmax(gap(phases))]), float(phases[1])
-    found = minimize_scalar(
+    result = minimize_scalar(
         lambda psi: -gap(psi)[0], bounds=(best - step, best + step), method="bounded", options={"xatol": 1e-9}
     )
-    return float(gap(found.x)[0])
+    return float(gap(result.x)[0])
 
 
 class _Passage(NamedTuple):

@@ -16,7 +16,7 @@ from rocking.model.validation import instance
 
 
 @frozen
-class Quantities:
+class Units:
     """Conversions from normalised values to the units of a figure, with the labels of axes.
 
     A label reads "quantity (unit)"; a dimensionless quantity has no unit. `reading` is a template for a line of text. Its
@@ -44,7 +44,7 @@ def _same(values: Any) -> Any:
     return values
 
 
-NORMALISED = Quantities(
+NORMALISED = Units(
     time=_same,
     amplitude=_same,
     angle=_same,
@@ -63,12 +63,12 @@ NORMALISED = Quantities(
 )
 
 
-def quantities(block: Block | None) -> Quantities:
+def units_of(block: Block | None) -> Units:
     """Return normalised quantities, or, for a `block`, seconds, degrees and degrees per second."""
     if block is None:
         return NORMALISED
     instance("block", block, Block)
-    return Quantities(
+    return Units(
         time=block.seconds,
         amplitude=block.acceleration,
         angle=block.degrees,

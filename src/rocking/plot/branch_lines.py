@@ -18,7 +18,7 @@ from rocking.orbits.cascade import Cascade
 from rocking.orbits.find_orbits import Orbits
 from rocking.orbits.frequency_response import FrequencyResponse
 from rocking.plot import palette, style
-from rocking.plot.axes import Quantities, parameter, quantities
+from rocking.plot.axes import Units, parameter, units_of
 from rocking.plot.sections import at_phase
 from rocking.plot.style import COLOURS
 
@@ -33,14 +33,14 @@ DASHES: dict[Stability, Any] = {
 }
 
 
-def height_label(quantity: str, shown: Quantities) -> str:
+def height_label(quantity: str, units: Units) -> str:
     """Return the label of the vertical axis for a quantity of an orbit."""
     if quantity == "multiplier":
         return r"largest Floquet multiplier $|\mu|$"
     if quantity == "peak":
-        symbol, _, unit = shown.angle_label.partition("$")[2].partition("$")
+        symbol, _, unit = units.angle_label.partition("$")[2].partition("$")
         return f"largest $|{symbol.split(' = ')[0]}|${unit}"
-    return shown.velocity_label if quantity == "velocity" else shown.angle_label
+    return units.velocity_label if quantity == "velocity" else units.angle_label
 
 
 class Line(NamedTuple):
@@ -51,7 +51,7 @@ class Line(NamedTuple):
     heights: np.ndarray
     between: np.ndarray
 
-    def shown(self, across: Callable[[Any], Any], upright: Callable[[Any], Any]) -> "Line":
+    def scaled(self, across: Callable[[Any], Any], upright: Callable[[Any], Any]) -> "Line":
         """Return the line in the units of the axes."""
         return self._replace(values=across(self.values), heights=upright(self.heights))
 
@@ -204,16 +204,16 @@ def branch(
         )
         raise Refusal("quantity", allowed, quantity)
     phase = PHASE.checked(phase)
-    shown = quantities(block)
+    units = units_of(block)
     across, x_label = parameter(branches[0].name, block)
-    scales: dict[str, Callable[[Any], Any]] = {"velocity": shown.velocity, "multiplier": np.asarray}
-    upright = scales.get(quantity, shown.angle)
+    scales: dict[str, Callable[[Any], Any]] = {"velocity": units.velocity, "multiplier": np.asarray}
+    upright = scales.get(quantity, units.angle)
     ax = style.own(ax, height=3.0)
     if quantity == "multiplier":
         ax.set_yscale("log")
         ax.axhline(1.0, color=style.TABLE, linewidth=0.8, gid="unit")
     for one in sorted(branches, key=lambda one: not one.symmetric):
-        line = branch_line(one, quantity, phase).shown(across, upright)
+        line = branch_line(one, quantity, phase).scaled(across, upright)
         for stability in Stability:
             name = f"{'' if one.symmetric else 'a'}symmetric, {stability}"
             part(
@@ -232,7 +232,7 @@ def branch(
         style.logarithmic(ax.yaxis)
         if max(high, 2.0) < 100.0 * min(low, 0.5):
             ax.yaxis.set_major_formatter(FuncFormatter(lambda modulus, _: f"{modulus:g}"))
-    style.label(ax, x_label, height_label(quantity, shown))
+    style.label(ax, x_label, height_label(quantity, units))
     style.key(ax)
     return ax
 
@@ -248,11 +248,11 @@ def _branches(result: Branch | Sequence[Branch]) -> list[Branch]:
 def _marks(ax: Axes, branches: Sequence[Branch], heights, across) -> None:
     """Draw a marker on every special point, at each of its states on the section."""
     for kind, (marker, filled, name) in MARKERS.items():
-        found = [special for one in branches for special in one._passages if special.kind == kind]
-        if not found:
+        rows = [special for one in branches for special in one._passages if special.kind == kind]
+        if not rows:
             continue
         points = [
-            (across(special.parameter), height) for special in found for height in heights(special.orbit)
+            (across(special.parameter), height) for special in rows for height in heights(special.orbit)
         ]
         ax.plot(
             *np.array(points, float).T,
@@ -406,7 +406,7 @@ def orbits(
     """
     instance("result", result, Orbits)
     psi = result.system.periodic.phase if phase is None else PHASE.checked(phase)
-    shown = quantities(block)
+    units = units_of(block)
     ax = style.own(ax, height=2.9)
     for stability, (colour, marker) in LOOKS.items():
         states = [
@@ -417,8 +417,8 @@ def orbits(
         ]
         if states:
             ax.plot(
-                shown.angle(np.array([state.angle for state in states])),
-                shown.velocity(np.array([state.velocity for state in states])),
+                units.angle(np.array([state.angle for state in states])),
+                units.velocity(np.array([state.velocity for state in states])),
                 linestyle="none",
                 marker=marker,
                 markersize=style.MARK,
@@ -427,7 +427,7 @@ def orbits(
                 label=str(stability),
                 gid=str(stability),
             )
-    style.label(ax, shown.angle_label, shown.velocity_label)
+    style.label(ax, units.angle_label, units.velocity_label)
     style.note(ax, at_phase(psi))
     if len(result):
         style.key(ax)
@@ -476,22 +476,22 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     --------
     >>> import numpy as np, rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.frequency_response(system, period=np.linspace(0.5, 2.5, 9))
-    >>> [text.get_text() for text in rk.plot.frequency_response(found).get_legend().get_texts()]
+    >>> result = rk.frequency_response(system, period=np.linspace(0.5, 2.5, 9))
+    >>> [text.get_text() for text in rk.plot.frequency_response(result).get_legend().get_texts()]
     ['(1, 1), stable', '(1, 3), stable', '(1, 3), unstable', 'from rest: periodic', 'from rest: overturned']
     """
     instance("result", result, FrequencyResponse)
-    shown = quantities(block)
+    units = units_of(block)
     across, x_label = parameter(result.parameter, block)
     ax = style.own(ax, height=3.0)
     for n, colour in zip(result.modes, cycle(LINES), strict=False):
         for stability in Stability:
             name = f"(1, {n}), {stability}"
             for branch in result.of(n):
-                line = branch_line(branch, "peak", 0.0).shown(across, shown.angle)
+                line = branch_line(branch, "peak", 0.0).scaled(across, units.angle)
                 part(ax, line, stability, name, color=colour, linewidth=style.LINE, gid=name)
-    _from_rest(ax, result, across, shown.angle)
-    style.label(ax, x_label, height_label("peak", shown))
+    _from_rest(ax, result, across, units.angle)
+    style.label(ax, x_label, height_label("peak", units))
     low, high = ax.get_ylim()
     ax.set_ylim(min(low, 0.0) - ROOM * (high - low), high)
     style.key(ax)

@@ -163,8 +163,8 @@ def bifurcation_set(result: BifurcationSet, ax: Axes | None = None, block: Block
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
-    >>> found = rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
-    >>> [text.get_text() for text in rk.plot.bifurcation_set(found).get_legend().get_texts()]
+    >>> result = rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
+    >>> [text.get_text() for text in rk.plot.bifurcation_set(result).get_legend().get_texts()]
     ['period doubling', 'symmetry breaking']
     """
     instance("result", result, BifurcationSet)
@@ -237,10 +237,10 @@ def grazing_transition(result: GrazingTransition, ax: Axes | None = None) -> Axe
     'relative distance in amplitude'
     """
     instance("result", result, GrazingTransition)
-    shown = np.isfinite(result.farthest)
-    if not shown.any():
+    units = np.isfinite(result.farthest)
+    if not units.any():
         raise Refusal("result", "hold a motion that does not overturn to be drawn", "none")
-    x, far, near = (values[shown] for values in (result.distances, result.farthest, result.nearest))
+    x, far, near = (values[units] for values in (result.distances, result.farthest, result.nearest))
     ax = style.own(ax, height=2.9)
     if result.kind in ("local", "undecided"):
         ax.plot(

@@ -30,7 +30,7 @@ from rocking.model.validation import instance, within
 from rocking.model.verdict import Outcome
 from rocking.motion.motion import Motion, has_cycles, time_of_fall
 from rocking.plot import palette, style
-from rocking.plot.axes import quantities
+from rocking.plot.axes import units_of
 from rocking.plot.figures import check_path
 from rocking.plot.motions import base_displacement, draw_history, settled, window
 
@@ -446,7 +446,7 @@ class _Film:
 
     def __init__(self, motion: Motion, block: Block | None, times: NDArray, seconds: float) -> None:
         body = block or NOMINAL
-        self.times, self.shown = times, quantities(block)
+        self.times, self.units = times, units_of(block)
         flat = body.angle(degrees=90)
         # a fallen block stays down: the motion is evaluated only up to the end of the fall
         end = (
@@ -463,19 +463,19 @@ class _Film:
         if motion.overturning is not None:
             (curve,) = (line for line in below.lines if line.get_gid() == "motion")
             time, angle = (np.append(column, column[-1]) for column in curve.get_data())
-            time[-1] = self.shown.time(times[-1])
-            curve.set_data(time, np.clip(angle, self.shown.angle(-flat), self.shown.angle(flat)))
-            below.set_xlim(self.shown.time(times[0]), time[-1])
+            time[-1] = self.units.time(times[-1])
+            curve.set_data(time, np.clip(angle, self.units.angle(-flat), self.units.angle(flat)))
+            below.set_xlim(self.units.time(times[0]), time[-1])
             most = 1.5 * min(max(motion.peak, 1.0), flat)
-            below.set_ylim(self.shown.angle(-most), self.shown.angle(most))
+            below.set_ylim(self.units.angle(-most), self.units.angle(most))
         self.cursor = below.axvline(0.0, color=style.IMPACT, linewidth=style.LINE, animated=True)
         (self.dot,) = below.plot([], [], "o", color=style.IMPACT, markersize=7, animated=True, zorder=5)
         self.reading = self._write(0.02, "", style.TEXT + 4, ha="left", animated=True)
-        interval = float(self.shown.time(times[1] - times[0]))
+        interval = float(self.units.time(times[1] - times[0]))
         self.digits = max(1, math.ceil(-math.log10(interval)))
-        self.number = _number(float(self.shown.angle(np.abs(self.angles).max())))
+        self.number = _number(float(self.units.angle(np.abs(self.angles).max())))
         pace = interval * (len(times) - 1) / seconds
-        notes += f"\n1 s of film is {pace:.3g} {self.shown.time_unit}"
+        notes += f"\n1 s of film is {pace:.3g} {self.units.time_unit}"
         self._write(0.98, notes, style.SMALL, ha="right")
 
     def _write(self, place: float, text: str, size: float, **how) -> Text:
@@ -501,12 +501,12 @@ class _Film:
         canvas = FigureCanvasAgg(self.figure)
         canvas.draw()
         still = canvas.copy_from_bbox(self.figure.bbox)
-        shown_times, shown_angles = self.shown.time(self.times), self.shown.angle(self.angles)
+        shown_times, shown_angles = self.units.time(self.times), self.units.angle(self.angles)
         for frame, (time, angle) in enumerate(zip(shown_times, shown_angles, strict=True)):
             canvas.restore_region(still)
             self.dot.set_data([time], [angle])
             self.cursor.set_xdata([time, time])
-            reading = self.shown.reading.format(time, self.digits, angle, self.number)
+            reading = self.units.reading.format(time, self.digits, angle, self.number)
             self.reading.set_text(reading.replace("-", "−"))
             for part in (*self.scene.move(frame), self.cursor, self.dot, self.reading):
                 self.figure.draw_artist(part)

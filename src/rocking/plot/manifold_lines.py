@@ -9,7 +9,7 @@ from rocking.model.validation import instance
 from rocking.orbits.orbit_manifolds import OrbitManifolds
 from rocking.orbits.saddle_manifolds import SaddleManifolds
 from rocking.plot import style
-from rocking.plot.axes import quantities
+from rocking.plot.axes import units_of
 from rocking.plot.branch_lines import unless_there
 from rocking.plot.curves import EDGE
 from rocking.plot.sections import at_phase
@@ -58,13 +58,13 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
     ['stable +1', 'stable -1', 'unstable +1', 'unstable -1', 'saddles']
     """
     instance("result", result, SaddleManifolds)
-    shown = quantities(block)
+    units = units_of(block)
     ax = style.own(ax, height=2.9)
     for name, colour, pair in (("stable", STABLE, result.stable), ("unstable", UNSTABLE, result.unstable)):
         for one in pair:
             ax.plot(
-                shown.angle(one.points[:, 0]),
-                shown.velocity(one.points[:, 1]),
+                units.angle(one.points[:, 0]),
+                units.velocity(one.points[:, 1]),
                 color=colour,
                 linewidth=style.THIN,
                 linestyle="-" if one.side > 0 else (0, (4, 1.2)),
@@ -73,8 +73,8 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
                 gid=f"{name} {one.side:+d}",
             )
     ax.plot(
-        shown.angle(result.saddles[:, 0]),
-        shown.velocity(result.saddles[:, 1]),
+        units.angle(result.saddles[:, 0]),
+        units.velocity(result.saddles[:, 1]),
         linestyle="none",
         marker="x",
         markersize=style.MARK,
@@ -84,19 +84,19 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
         gid="saddles",
         zorder=3,
     )
-    style.label(ax, shown.angle_label, shown.velocity_label)
-    _frame(ax, result, shown)
+    style.label(ax, units.angle_label, units.velocity_label)
+    _frame(ax, result, units)
     style.note(ax, at_phase(result.phase))
     style.key(ax)
     return ax
 
 
-def _frame(ax: Axes, result: SaddleManifolds, shown) -> None:
+def _frame(ax: Axes, result: SaddleManifolds, units) -> None:
     """Set the limits: slightly beyond the saddles, and beyond the speeds at which their tangents meet Θ = 0."""
     sizes = np.abs(result.saddles)
     wide, fast = WIDER * sizes[:, 0].max(), WIDER * sizes.sum(axis=1).max()
-    ax.set_xlim(*(float(shown.angle(side * wide)) for side in (-1, 1)))
-    ax.set_ylim(*(float(shown.velocity(side * fast)) for side in (-1, 1)))
+    ax.set_xlim(*(float(units.angle(side * wide)) for side in (-1, 1)))
+    ax.set_ylim(*(float(units.velocity(side * fast)) for side in (-1, 1)))
 
 
 def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block | None = None) -> Axes:
@@ -135,14 +135,14 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
     ['stable', 'stable', 'unstable', 'unstable', 'saddle']
     """
     instance("result", result, OrbitManifolds)
-    shown = quantities(block)
+    units = units_of(block)
     is_new = ax is None
     ax = style.own(ax, height=2.9)
     for name, colour, halves in (("stable", STABLE, result.stable), ("unstable", UNSTABLE, result.unstable)):
         for one in halves:
             ax.plot(
-                shown.angle(one.points[:, 0]),
-                shown.velocity(one.points[:, 1]),
+                units.angle(one.points[:, 0]),
+                units.velocity(one.points[:, 1]),
                 color=colour,
                 linewidth=style.THIN,
                 path_effects=[Stroke(linewidth=style.THIN + EDGE, foreground="white"), Normal()],
@@ -151,8 +151,8 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
                 gid=name,
             )
     ax.plot(
-        shown.angle(result.points[:, 0]),
-        shown.velocity(result.points[:, 1]),
+        units.angle(result.points[:, 0]),
+        units.velocity(result.points[:, 1]),
         linestyle="none",
         marker="x",
         markersize=style.MARK,
@@ -163,7 +163,7 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
         zorder=3,
     )
     if is_new:
-        style.label(ax, shown.angle_label, shown.velocity_label)
+        style.label(ax, units.angle_label, units.velocity_label)
     style.note(ax, at_phase(result.phase))
     style.key_beside(ax)
     return ax

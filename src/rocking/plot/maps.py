@@ -18,7 +18,7 @@ from rocking.model.block import Block
 from rocking.model.files import resolve_path
 from rocking.model.package import require_extra
 from rocking.model.survey_results import ParametricMap
-from rocking.model.text import percent, shown_path
+from rocking.model.text import formatted_path, percent
 from rocking.model.validation import WrongType, refuse_if
 from rocking.plot import palette, style, theory_curves
 from rocking.plot.axes import parameter
@@ -46,9 +46,9 @@ class Responses:
         Attributes of the map.
     """
 
-    def __init__(self, found: Any) -> None:
-        self.folder = Path(found) if isinstance(found, str | os.PathLike) else None
-        self.levels = _levels(found)
+    def __init__(self, result: Any) -> None:
+        self.folder = Path(result) if isinstance(result, str | os.PathLike) else None
+        self.levels = _levels(result)
         finest = self.levels[-1]
         first, second = map(str, finest.kind.dims)
         self.names = first, second
@@ -61,11 +61,11 @@ class Responses:
         part = self.levels[-1][list(NEEDED)].isel({self.names[0]: slice(begin, end)})
         with _reading(self.folder):
             part = part.load()
-        found = looks(*(part[name].values for name in NEEDED))
-        missing = found == NONE
+        result = looks(*(part[name].values for name in NEEDED))
+        missing = result == NONE
         if missing.any() and len(self.levels) > 1:
-            found[missing] = self._coarser(begin, end)[missing]
-        return found
+            result[missing] = self._coarser(begin, end)[missing]
+        return result
 
     def parts(self) -> Iterator[tuple[int, np.ndarray]]:
         """Yield all rows in blocks: the index of the first row, and the categories of the block."""
@@ -96,18 +96,18 @@ def nearest(values: np.ndarray, places: np.ndarray) -> np.ndarray:
     return np.searchsorted(0.5 * (values[1:] + values[:-1]), places)
 
 
-def _levels(found: Any) -> list[xr.Dataset]:
-    if isinstance(found, ParametricMap):
-        return [found.dataset]
-    if isinstance(found, str | os.PathLike):
-        found = _opened(resolve_path("result", found))
-    levels = list(found) if isinstance(found, Sequence) else [found]
+def _levels(result: Any) -> list[xr.Dataset]:
+    if isinstance(result, ParametricMap):
+        return [result.dataset]
+    if isinstance(result, str | os.PathLike):
+        result = _opened(resolve_path("result", result))
+    levels = list(result) if isinstance(result, Sequence) else [result]
     allowed = "be a map over two axes, as parametric_map gives it, or the folder of its store"
     for level in levels:
         kinds = getattr(level, "kind", None)
         if getattr(kinds, "ndim", 0) != 2 or not all(hasattr(level, name) for name in NEEDED):
-            raise WrongType("result", allowed, found)
-    refuse_if(not levels, "result", allowed, found)
+            raise WrongType("result", allowed, result)
+    refuse_if(not levels, "result", allowed, result)
     return levels
 
 
@@ -136,7 +136,7 @@ def _reading(folder: Path | None) -> Iterator[None]:
         if folder is None:
             raise
         raise OSError(
-            f"result must be the folder of a store that can be read; got {shown_path(folder)}, which is damaged: "
+            f"result must be the folder of a store that can be read; got {formatted_path(folder)}, which is damaged: "
             "repeat the survey that made it with repair"
         ) from error
 
@@ -214,8 +214,8 @@ def parametric_map(
     >>> import numpy as np
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.parametric_map(system, amplitude=np.linspace(0, 16, 20), period=np.linspace(0.2, 3, 20))
-    >>> ax = rk.plot.parametric_map(found, curves=["symmetry-breaking-1", "melnikov"])
+    >>> result = rk.parametric_map(system, amplitude=np.linspace(0, 16, 20), period=np.linspace(0.2, 3, 20))
+    >>> ax = rk.plot.parametric_map(result, curves=["symmetry-breaking-1", "melnikov"])
     >>> ax.get_xlabel(), ax.get_ylabel()
     ('period $T$', 'amplitude $A$')
     """

@@ -16,7 +16,7 @@ from rocking.model.validation import Refusal, WrongType, instance, refuse_if, wi
 from rocking.model.verdict import Outcome
 from rocking.motion.motion import Motion, end_shown, fallen, has_cycles
 from rocking.plot import figures, style
-from rocking.plot.axes import Quantities, quantities
+from rocking.plot.axes import Units, units_of
 from rocking.plot.sections import section
 
 SAMPLES_PER_TIME = 64
@@ -183,7 +183,7 @@ def time_history(
     time $\tau = \alpha t$
     """
     start, stop = window(result, cycles)
-    quantities(block)  # refused before there is a figure
+    units_of(block)  # refused before there is a figure
     if ax is not None or has_cycles(result):
         return draw_history(style.own(ax), result, start, stop, block)
     figure = figures.new(style.COLUMN, 3.2)
@@ -216,7 +216,7 @@ def _outcome(motion: Motion) -> str:
 
 def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
     """Draw the base acceleration from time `start` to `stop`, in τ, and the accelerations that lift a block off if it comes near."""
-    forcing, shown = motion.system.forcing, quantities(block)
+    forcing, units = motion.system.forcing, units_of(block)
     time = np.linspace(start, stop, SAMPLES_PER_PICTURE)  # also at a jump, where no sample is
     if isinstance(forcing, PiecewiseLinear):
         samples = forcing.step * np.arange(forcing.values.size)
@@ -227,43 +227,43 @@ def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block 
         first, last = (np.abs(forcing.acceleration(part)).max() for part in np.array_split(time, 3)[::2])
         _pair(
             ax,
-            shown.amplitude(motion.system.lift_off),
+            units.amplitude(motion.system.lift_off),
             style.GUIDE,
             "dotted",
             "lift-off from rest",
             at_right=last < first,
         )
     ax.plot(
-        shown.time(time),
-        shown.amplitude(forcing.acceleration(time)),
+        units.time(time),
+        units.amplitude(forcing.acceleration(time)),
         color=style.INK,
         linewidth=style.THIN,
         rasterized=len(time) > style.MAX_CORNERS,
         gid="base",
     )
-    style.label(ax, shown.time_label, shown.base_label)
+    style.label(ax, units.time_label, units.base_label)
     return ax
 
 
 def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
     """Draw the angle from time `start` to `stop`, in τ."""
     time, angle, _ = trace(motion, start, stop)
-    shown = quantities(block)
-    _guides(ax, motion.system, shown, float(np.abs(angle).max()), at_right=has_cycles(motion))
+    units = units_of(block)
+    _guides(ax, motion.system, units, float(np.abs(angle).max()), at_right=has_cycles(motion))
     ax.plot(
-        shown.time(time),
-        shown.angle(angle),
+        units.time(time),
+        units.angle(angle),
         color=style.MOTION,
         linewidth=style.LINE,
         rasterized=len(time) > style.MAX_CORNERS,
         gid="motion",
     )
-    ax.set_xlim(shown.time(start), shown.time(stop))
-    style.label(ax, shown.time_label, shown.angle_label)
+    ax.set_xlim(units.time(start), units.time(stop))
+    style.label(ax, units.time_label, units.angle_label)
     return ax
 
 
-def _guides(ax: Axes, system: System, shown: Quantities, largest: float, *, at_right: bool) -> None:
+def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right: bool) -> None:
     """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it."""
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
@@ -271,7 +271,7 @@ def _guides(ax: Axes, system: System, shown: Quantities, largest: float, *, at_r
     else:
         level, colour, dashes, name = system.braces.angle, style.BRACE, "dashed", "braces"
     if largest > 0.5 * level:
-        _pair(ax, shown.angle(level), colour, dashes, name, at_right=at_right)
+        _pair(ax, units.angle(level), colour, dashes, name, at_right=at_right)
 
 
 def _pair(ax: Axes, level: float, colour: str, dashes: str, name: str, *, at_right: bool) -> None:
@@ -352,11 +352,11 @@ def phase_portrait(
     breaks = 1 + np.flatnonzero((np.diff(time) == 0) & (np.diff(velocity) != 0))
     events = inside(result.events, start, stop)
     events = events[np.isin(events["kind"], list(STRIKES))]
-    shown = quantities(block)
+    units = units_of(block)
     ax = style.own(ax, height=3.0)
     ax.plot(
-        shown.angle(np.insert(angle, breaks, np.nan)),
-        shown.velocity(np.insert(velocity, breaks, np.nan)),
+        units.angle(np.insert(angle, breaks, np.nan)),
+        units.velocity(np.insert(velocity, breaks, np.nan)),
         color=style.MOTION,
         linewidth=style.line_width(len(events)),
         marker="o" if not np.ptp(angle) and not np.ptp(velocity) else "none",
@@ -365,20 +365,20 @@ def phase_portrait(
         gid="motion",
     )
     for kind, (colour, marker) in STRIKES.items():
-        _strikes(ax, shown, events[events["kind"] == kind], kind, colour, marker)
-    style.label(ax, shown.angle_label, shown.velocity_label)
+        _strikes(ax, units, events[events["kind"] == kind], kind, colour, marker)
+    style.label(ax, units.angle_label, units.velocity_label)
     if len(events):
         style.key(ax)
     return ax
 
 
-def _strikes(ax: Axes, shown: Quantities, hits: NDArray, kind: str, colour: str, marker: str) -> None:
+def _strikes(ax: Axes, units: Units, hits: NDArray, kind: str, colour: str, marker: str) -> None:
     if not len(hits):
         return
     angle, before, after = (
-        shown.angle(hits["angle"]),
-        shown.velocity(hits["before"]),
-        shown.velocity(hits["after"]),
+        units.angle(hits["angle"]),
+        units.velocity(hits["before"]),
+        units.velocity(hits["after"]),
     )
     size, dense = 0.8 * style.point_size(len(hits)), len(hits) > style.MAX_MARKS
     ax.vlines(
@@ -440,7 +440,7 @@ def overview(result: Motion, block: Block | None = None) -> Figure:
     2
     """
     instance("result", result, Motion)
-    quantities(block)  # refused before there is a figure
+    units_of(block)  # refused before there is a figure
     if result.record != "all":
         figure, (ax,) = style.panels(height=3.0)
         kept = (

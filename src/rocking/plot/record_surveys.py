@@ -70,8 +70,8 @@ def fragility(result: Fragility, ax: Axes | None = None) -> Axes:
     >>> import numpy as np
     >>> import rocking as rk
     >>> records = rk.synthetic_ground_motions(8, seed=1)
-    >>> found = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 9))
-    >>> rk.plot.fragility(found).get_ylabel()
+    >>> result = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 9))
+    >>> rk.plot.fragility(result).get_ylabel()
     'probability (%)'
     """
     instance("result", result, Fragility)
@@ -138,14 +138,14 @@ def _draw_fit(ax: Axes, fit: LognormalFit, of: Any, colour: str) -> None:
     ax.plot(fine, 100.0 * rocking * fit.probability(fine), color=colour, linewidth=style.LINE, gid="fit")
 
 
-def _key(ax: Axes, found: Fragility, shades: list[str]) -> None:
+def _key(ax: Axes, result: Fragility, shades: list[str]) -> None:
     """Draw the legend: the limits by their marks, then the kinds of lines and marks that are there."""
     drawn = {each.get_gid() for each in (*ax.lines, *ax.collections)}
-    fractions = found.dataset.fraction.values
+    fractions = result.dataset.fraction.values
     looks: dict[str, Any] = {"linestyle": "none", "markersize": style.MARK, "markeredgewidth": style.THIN}
-    limits = found.dataset.limit.values.tolist()
+    limits = result.dataset.limit.values.tolist()
     handles: list[Any] = [
-        Line2D([], [], marker=mark, color=colour, label=limit_label(limit, found.block), **looks)
+        Line2D([], [], marker=mark, color=colour, label=limit_label(limit, result.block), **looks)
         for limit, colour, mark in zip(limits, shades, (*MARKS[: len(limits) - 1], MARKS[-1]), strict=True)
     ]
     handles.append(
@@ -214,8 +214,8 @@ def incremental_dynamic_analysis(
     >>> import numpy as np
     >>> import rocking as rk
     >>> records = rk.synthetic_ground_motions(5, seed=1)
-    >>> found = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), np.linspace(1, 3, 9))
-    >>> rk.plot.incremental_dynamic_analysis(found).get_xlabel()
+    >>> result = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), np.linspace(1, 3, 9))
+    >>> rk.plot.incremental_dynamic_analysis(result).get_xlabel()
     'largest angle $|\\theta|$ (°)'
     """
     instance("result", result, IncrementalDynamicAnalysis)
@@ -322,8 +322,8 @@ def overturning_set(result: OverturningSet, ax: Axes | None = None) -> Axes:
     >>> import numpy as np
     >>> import rocking as rk
     >>> records, cabinet = rk.synthetic_ground_motions(3, seed=1), rk.Block(height=2.0, width=0.5)
-    >>> found = rk.overturning_set(records, cabinet, np.linspace(0.2, 2, 91), intensity="pga-g")
-    >>> rk.plot.overturning_set(found).get_xlabel()
+    >>> result = rk.overturning_set(records, cabinet, np.linspace(0.2, 2, 91), intensity="pga-g")
+    >>> rk.plot.overturning_set(result).get_xlabel()
     'peak ground acceleration PGA (g)'
     """
     instance("result", result, OverturningSet)
@@ -376,9 +376,9 @@ def overturning_set(result: OverturningSet, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def intensity_label(found: OverturningSet) -> str:
+def intensity_label(result: OverturningSet) -> str:
     """Return the label of the axis of levels: quantity, symbol and unit."""
-    measure = found.measure
+    measure = result.measure
     symbol = "" if measure.symbol in measure.long_name else f" {measure.symbol}"
     unit = "" if measure.unit in ("1", "") else f" ({measure.unit})"
     return f"{measure.long_name}{symbol}{unit}"

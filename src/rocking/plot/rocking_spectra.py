@@ -32,7 +32,7 @@ ACROSS = {
     "frequency-parameter": r"frequency parameter $\alpha$ (1/s)",
     "period": r"$2\pi/\alpha$ (s)",
 }
-"""Quantities of the horizontal axis that stand for the size."""
+"""Units of the horizontal axis that stand for the size."""
 UNITS = {
     "critical": r"largest angle $|\theta|/\theta_\mathrm{cr}$",
     "degrees": r"largest angle $|\theta|$ (°)",
@@ -97,19 +97,19 @@ def rocking_spectrum(
     >>> import numpy as np
     >>> import rocking as rk
     >>> strong = rk.example_ground_motion().scaled(5)
-    >>> found = rk.rocking_spectrum(strong, size=np.linspace(0.5, 4, 30), slenderness=[0.15, 0.2])
-    >>> rk.plot.rocking_spectrum(found, across="period").get_xlabel()
+    >>> result = rk.rocking_spectrum(strong, size=np.linspace(0.5, 4, 30), slenderness=[0.15, 0.2])
+    >>> rk.plot.rocking_spectrum(result, across="period").get_xlabel()
     '$2\\pi/\\alpha$ (s)'
     """
     across, unit = one_of("across", across, tuple(ACROSS)), one_of("unit", unit, tuple(UNITS))
-    found = result.dataset if isinstance(result, RockingSpectrum) else result
-    _check(found)
-    dims = found.peak.dims
-    if "slenderness" in dims and "size" in dims and found.sizes["slenderness"] > MOST_SLENDERNESSES:
-        return _map(found, ax, across, unit)
+    data = result.dataset if isinstance(result, RockingSpectrum) else result
+    _check(data)
+    dims = data.peak.dims
+    if "slenderness" in dims and "size" in dims and data.sizes["slenderness"] > MOST_SLENDERNESSES:
+        return _map(data, ax, across, unit)
     name = "size" if "size" in dims else "slenderness"
-    places, x_label = _axis(found, name, across)
-    lines = list(lines_of(found, name, unit))
+    places, x_label = _axis(data, name, across)
+    lines = list(lines_of(data, name, unit))
     named = len(lines) <= len(COLOURS)
     groups = {line.slenderness_number: line.slenderness for line in lines}
     ax = style.own(ax, height=2.6 + 0.16 * -(-len(lines if named else groups) // 2))
@@ -125,7 +125,7 @@ def rocking_spectrum(
             _draw_median(
                 ax, places, [line for line in lines if line.slenderness_number == group], COLOURS[group]
             )
-    _head(ax, found)
+    _head(ax, data)
     style.label(ax, x_label, UNITS[unit])
     ax.set_ylim(0.0, top)
     if any(line.overturned.any() for line in lines):
@@ -134,23 +134,21 @@ def rocking_spectrum(
     return ax
 
 
-def _head(ax: Axes, found: xr.Dataset) -> None:
+def _head(ax: Axes, data: xr.Dataset) -> None:
     """Write the record or the number of records above the axes, and the slenderness and the level that do not vary."""
-    if "record" in found.dims:
-        heading = counted(found.sizes["record"], "record")
+    if "record" in data.dims:
+        heading = counted(data.sizes["record"], "record")
     else:
-        heading = shortened(
-            str(found["name"].values) if "name" in found.coords else found.attrs["record"], 30
-        )
-    style.title(ax, heading + style.FULL_EQUATION * (found.attrs.get("model") == "full"))
+        heading = shortened(str(data["name"].values) if "name" in data.coords else data.attrs["record"], 30)
+    style.title(ax, heading + style.FULL_EQUATION * (data.attrs.get("model") == "full"))
     constants = []
-    if "slenderness" not in found.dims:
-        constants.append(rf"$\theta_\mathrm{{cr}}$ = {np.degrees(float(value(found, 'slenderness'))):.3g}°")
-    level = float(value(found, "level")) if "level" in {**found.coords, **found.attrs} else 1.0
+    if "slenderness" not in data.dims:
+        constants.append(rf"$\theta_\mathrm{{cr}}$ = {np.degrees(float(value(data, 'slenderness'))):.3g}°")
+    level = float(value(data, "level")) if "level" in {**data.coords, **data.attrs} else 1.0
     if level != 1.0:
-        measure = INTENSITIES.get(found.attrs["intensity"], (None,))[0]
+        measure = INTENSITIES.get(data.attrs["intensity"], (None,))[0]
         unit = "" if measure is None or measure.unit == "1" else f" {measure.unit}"
-        symbol = found.attrs["intensity"] if measure is None else measure.symbol
+        symbol = data.attrs["intensity"] if measure is None else measure.symbol
         constants.append(f"{symbol} = {level:g}{unit}")
     style.note(ax, ", ".join(constants))
 
@@ -175,14 +173,14 @@ def _draw_median(ax: Axes, places: np.ndarray, lines: list[Line], colour: str) -
     )
 
 
-def _check(found: Any) -> None:
+def _check(data: Any) -> None:
     """Raise TypeError or ValueError for a dataset that is no rocking spectrum over its axes."""
     import xarray as xr
 
-    if not isinstance(found, xr.Dataset) or not {"peak", "outcome", "certified"} <= set(found.data_vars):
-        raise WrongType("result", "be a rocking spectrum, as rocking.rocking_spectrum gives it", found)
-    named_levels(found)
-    peak = found.peak
+    if not isinstance(data, xr.Dataset) or not {"peak", "outcome", "certified"} <= set(data.data_vars):
+        raise WrongType("result", "be a rocking spectrum, as rocking.rocking_spectrum gives it", data)
+    named_levels(data)
+    peak = data.peak
     others = [str(name) for name in peak.dims if name not in LINES]
     if others:
         remedy = f"select one value first, such as result.dataset.isel({others[0]}=0)"
@@ -192,13 +190,13 @@ def _check(found: Any) -> None:
         raise Refusal("result", "vary over size or slenderness", tuple(map(str, peak.dims)))
 
 
-def _axis(found: xr.Dataset, name: str, across: str) -> tuple[np.ndarray, str]:
+def _axis(data: xr.Dataset, name: str, across: str) -> tuple[np.ndarray, str]:
     """Return the values of the horizontal axis, and its label."""
     if name == "slenderness":
-        return np.degrees(found[name].values), SLENDERNESS
+        return np.degrees(data[name].values), SLENDERNESS
     if across == "size":
-        return found[name].values, ACROSS[across]
-    alpha = found["frequency_parameter"].values
+        return data[name].values, ACROSS[across]
+    alpha = data["frequency_parameter"].values
     return (alpha if across == "frequency-parameter" else math.tau / alpha), ACROSS[across]
 
 
@@ -265,18 +263,18 @@ def _key(ax: Axes, lines: list[Line], groups: dict[int, str] | None) -> None:
     style.patches(ax, handles, columns=1 if max(map(len, names)) > LONGEST else 2)
 
 
-def _map(found: xr.Dataset, ax: Axes | None, across: str, unit: str) -> Axes:
+def _map(data: xr.Dataset, ax: Axes | None, across: str, unit: str) -> Axes:
     """Draw the largest angle over size and slenderness."""
-    if "record" in found.peak.dims:
+    if "record" in data.peak.dims:
         remedy = "select one first, such as result.dataset.isel(record=0)"
-        count = counted(found.sizes["record"], "record")
+        count = counted(data.sizes["record"], "record")
         raise Refusal("result", "hold one record to be a map", count, remedy)
-    places, x_label = _axis(found, "size", across)
-    angles = np.degrees(found["slenderness"].values)
-    peak = found.peak.transpose("slenderness", "size").values
+    places, x_label = _axis(data, "size", across)
+    angles = np.degrees(data["slenderness"].values)
+    peak = data.peak.transpose("slenderness", "size").values
     if unit == "degrees":
         peak = peak * angles[:, None]
-    overturned = overturned_runs(found).transpose("slenderness", "size").values
+    overturned = overturned_runs(data).transpose("slenderness", "size").values
     ax = style.own(ax, height=3.0)
     corners = edges(places), edges(angles)
     still = peak == 0.0
@@ -296,7 +294,7 @@ def _map(found: xr.Dataset, ax: Axes | None, across: str, unit: str) -> Axes:
     bar = ax.figure.colorbar(image, ax=ax, pad=0.02)
     bar.set_label(UNITS[unit], fontsize=style.SMALL, color=style.INK)
     bar.ax.tick_params(labelsize=style.SMALL)
-    _head(ax, found)
+    _head(ax, data)
     style.label(ax, x_label, SLENDERNESS)
     style.patches(ax, [Patch(facecolor=colour, label=name) for where, colour, name in ends if where.any()])
     return ax
@@ -356,27 +354,27 @@ def overturning_spectrum(
     >>> import rocking as rk
     >>> axes = {"amplitude": np.linspace(1, 10, 40), "frequency": np.linspace(1, 8, 40)}
     >>> system = rk.System(rk.Pulse("one-sine", amplitude=5.0, duration=1.0), restitution=0.9)
-    >>> found = rk.overturning_spectrum(system, **axes)
-    >>> rk.plot.overturning_spectrum(found).get_ylabel()
+    >>> result = rk.overturning_spectrum(system, **axes)
+    >>> rk.plot.overturning_spectrum(result).get_ylabel()
     'amplitude $A$'
     """
-    found = result.dataset if isinstance(result, OverturningSpectrum) else result
-    attributes = getattr(found, "attrs", {})
-    if "pulse" not in attributes or any(name not in found for name in VARIABLES):
+    data = result.dataset if isinstance(result, OverturningSpectrum) else result
+    attributes = getattr(data, "attrs", {})
+    if "pulse" not in attributes or any(name not in data for name in VARIABLES):
         raise WrongType(
             "result", "be an overturning spectrum, as rocking.overturning_spectrum gives it", result
         )
-    if found["outcome"].ndim != 2:
-        raise Refusal("result", "have one coefficient of restitution", dict(found.sizes), "select one value")
+    if data["outcome"].ndim != 2:
+        raise Refusal("result", "have one coefficient of restitution", dict(data.sizes), "select one value")
     turn_across, _ = parameter("frequency", block)
     turn_up, y_label = parameter("amplitude", block)
     ax = style.own(ax, height=3.4)
     style.block_title(ax, block)
-    style.note(ax, f"{attributes['pulse']}, e = {_restitution(found):.4g}")
-    codes = categories(found.transpose("amplitude", "frequency"))
+    style.note(ax, f"{attributes['pulse']}, e = {_restitution(data):.4g}")
+    codes = categories(data.transpose("amplitude", "frequency"))
     ax.pcolormesh(
-        turn_across(found["frequency"].values),
-        turn_up(found["amplitude"].values),
+        turn_across(data["frequency"].values),
+        turn_up(data["amplitude"].values),
         codes,
         cmap=ListedColormap([colour for _, colour in LOOKS]),
         norm=BoundaryNorm(np.arange(len(LOOKS) + 1) - 0.5, len(LOOKS)),
@@ -393,14 +391,14 @@ def overturning_spectrum(
     return ax
 
 
-def _restitution(found: xr.Dataset) -> float:
-    return float(found["restitution"] if "restitution" in found.coords else found.attrs["restitution"])
+def _restitution(data: xr.Dataset) -> float:
+    return float(data["restitution"] if "restitution" in data.coords else data.attrs["restitution"])
 
 
-def categories(found: xr.Dataset) -> np.ndarray:
+def categories(data: xr.Dataset) -> np.ndarray:
     """Return the codes of `LOOKS`, in the shape of the outcomes."""
-    codes = np.where(np.isnan(found["margin"].values), STILL, ROCKS)
-    overturned = found["outcome"].values == tuple(Outcome).index(Outcome.OVERTURNED)
-    mode = np.clip(found["impacts_since_rest"].values, 0, 2)
+    codes = np.where(np.isnan(data["margin"].values), STILL, ROCKS)
+    overturned = data["outcome"].values == tuple(Outcome).index(Outcome.OVERTURNED)
+    mode = np.clip(data["impacts_since_rest"].values, 0, 2)
     codes = np.where(overturned, OVERTURNS + mode, codes)
-    return np.where(found["certified"].values == 0, UNDECIDED, codes)
+    return np.where(data["certified"].values == 0, UNDECIDED, codes)

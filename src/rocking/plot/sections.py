@@ -13,7 +13,7 @@ from rocking.model.text import counted
 from rocking.model.validation import Refusal, WrongType, instance, reals, refuse_if, whole
 from rocking.motion.motion import Motion
 from rocking.plot import style
-from rocking.plot.axes import quantities
+from rocking.plot.axes import units_of
 from rocking.response.correlation_dimension import CorrelationDimension
 from rocking.response.impact_section import impact_section as impacts_of
 
@@ -77,11 +77,11 @@ def section(
     points = points[whole("transient", transient, 0, len(points) - 1) :]
     if isinstance(result, Motion) and phase is None:
         phase = result.system.periodic.phase
-    shown = quantities(block)
+    units = units_of(block)
     ax = style.own(ax, height=2.9)
     ax.plot(
-        shown.angle(points[:, 0]),
-        shown.velocity(points[:, 1]),
+        units.angle(points[:, 0]),
+        units.velocity(points[:, 1]),
         linestyle="none",
         marker="o",
         markersize=style.point_size(style.places(*points.T)),
@@ -90,7 +90,7 @@ def section(
         rasterized=len(points) > style.MAX_MARKS,
         gid="section",
     )
-    style.label(ax, shown.angle_label, shown.velocity_label)
+    style.label(ax, units.angle_label, units.velocity_label)
     if phase is not None:
         style.note(ax, at_phase(phase))
     return ax
@@ -161,7 +161,7 @@ def impact_section(
     [100, 100]
     """
     impacts = _impacts(result, transient)
-    shown = quantities(block)
+    units = units_of(block)
     ax = style.own(ax, height=2.9)
     size = style.point_size(style.places(impacts["phase"], impacts["after"]))
     for side, name, colour in SIDES:
@@ -170,7 +170,7 @@ def impact_section(
             continue
         ax.plot(
             onto["phase"],
-            shown.velocity(np.abs(onto["after"])),
+            units.velocity(np.abs(onto["after"])),
             linestyle="none",
             marker="o",
             markersize=size,
@@ -180,11 +180,11 @@ def impact_section(
             label=name,
             gid=f"impact section {side:+d}",
         )
-    style.label(ax, r"forcing phase $\psi$ (rad)", shown.speed_label)
+    style.label(ax, r"forcing phase $\psi$ (rad)", units.speed_label)
     ax.set_xlim(-0.1, 2 * math.pi + 0.1)
     ax.xaxis.set_major_locator(FixedLocator([quarter * math.pi / 2 for quarter in range(5)]))
     ax.set_xticklabels(QUARTERS)
-    ax.set_ylim(0.0, 1.08 * float(shown.velocity(np.abs(impacts["after"]).max())) or 1.0)
+    ax.set_ylim(0.0, 1.08 * float(units.velocity(np.abs(impacts["after"]).max())) or 1.0)
     style.key(ax)
     return ax
 

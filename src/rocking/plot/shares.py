@@ -57,8 +57,8 @@ def chaos_share(result: ChaosShare, ax: Axes | None = None) -> Axes:
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.9)
-    >>> found = rk.chaos_share(system, restitution=[0.5, 0.9], samples=20)
-    >>> rk.plot.chaos_share(found).get_xlabel()
+    >>> result = rk.chaos_share(system, restitution=[0.5, 0.9], samples=20)
+    >>> rk.plot.chaos_share(result).get_xlabel()
     '$1 - e$, coefficient of restitution $e$'
     """
     instance("result", result, ChaosShare)
@@ -151,8 +151,8 @@ def overturning(result: OverturningCurve, ax: Axes | None = None, block: Block |
     >>> import numpy as np
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.overturning_amplitude(system, period=[1.5, 2.0], amplitude=np.linspace(1, 4, 31), phases=2)
-    >>> rk.plot.overturning(found).get_xlabel().startswith("period $T$")
+    >>> result = rk.overturning_amplitude(system, period=[1.5, 2.0], amplitude=np.linspace(1, 4, 31), phases=2)
+    >>> rk.plot.overturning(result).get_xlabel().startswith("period $T$")
     True
     """
     instance("result", result, OverturningCurve)
@@ -230,7 +230,7 @@ def _tangency(ax: Axes, across: np.ndarray, tangency: np.ndarray) -> None:
         ax.set_ylim(above)
 
 
-SHOWN = 12
+MAX_SHOWN = 12
 LEAST = 1e-4
 """Smallest fraction with a row in the legend."""
 
@@ -268,7 +268,7 @@ def repeatability(result: Repeatability, ax: Axes | None = None) -> Axes:
     """
     instance("result", result, Repeatability)
     ax = style.own(ax)
-    pairs = list(result.responses.items())[:SHOWN]
+    pairs = list(result.responses.items())[:MAX_SHOWN]
     up = np.arange(len(pairs))
     values = np.array([share.value for _, share in pairs])
     ends = np.array([[share.value - share.low, share.high - share.value] for _, share in pairs]).T
@@ -325,10 +325,10 @@ def repeatability_map(result: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     >>> import numpy as np
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.repeatability_map(
+    >>> result = rk.repeatability_map(
     ...     system, amplitude=np.linspace(1, 13, 4), period=np.linspace(0.5, 2, 4), samples=4
     ... )
-    >>> rk.plot.repeatability_map(found).get_xlabel().startswith("period $T$")
+    >>> rk.plot.repeatability_map(result).get_xlabel().startswith("period $T$")
     True
     """
     instance("result", result, RepeatabilityMap)

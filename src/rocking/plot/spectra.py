@@ -13,7 +13,7 @@ from matplotlib.ticker import LogLocator, NullLocator
 from rocking.model.block import Block
 from rocking.model.validation import instance, whole, within
 from rocking.plot import style
-from rocking.plot.axes import quantities
+from rocking.plot.axes import units_of
 from rocking.response.spectrum import Peak, SpectralDensity
 
 if TYPE_CHECKING:
@@ -31,42 +31,42 @@ class Line(NamedTuple):
     certified: np.ndarray
 
 
-def overturned_runs(found: xr.Dataset) -> Any:
+def overturned_runs(data: xr.Dataset) -> Any:
     """Return which runs overturned, as an array with the dimensions of the spectrum."""
-    meanings = found.outcome.attrs["flag_meanings"].split()
-    return found.outcome == meanings.index("overturned")
+    meanings = data.outcome.attrs["flag_meanings"].split()
+    return data.outcome == meanings.index("overturned")
 
 
-def value(found: xr.Dataset, name: str) -> Any:
+def value(data: xr.Dataset, name: str) -> Any:
     """Return a quantity of the survey, whether it varies or not."""
-    return found[name].values if name in found.coords else found.attrs[name]
+    return data[name].values if name in data.coords else data.attrs[name]
 
 
-def lines_of(found: xr.Dataset, name: str, unit: str) -> Iterator[Line]:
+def lines_of(data: xr.Dataset, name: str, unit: str) -> Iterator[Line]:
     """Yield the lines, the slendernesses of each record.
 
     `name` is the quantity of the horizontal axis, "size" or "slenderness". `unit` is that of the angle, "critical" or "degrees".
     """
-    degrees = np.degrees(np.asarray(value(found, "slenderness"), float))
-    fell = overturned_runs(found)
-    peaks = found.peak * (np.degrees(found["slenderness"]) if "slenderness" in found.peak.dims else degrees)
-    shown = found.peak if unit == "critical" else peaks
-    records = range(found.sizes["record"]) if "record" in found.dims else [None]
-    angles = range(found.sizes["slenderness"]) if name == "size" and "slenderness" in found.dims else [None]
+    degrees = np.degrees(np.asarray(value(data, "slenderness"), float))
+    fell = overturned_runs(data)
+    peaks = data.peak * (np.degrees(data["slenderness"]) if "slenderness" in data.peak.dims else degrees)
+    heights = data.peak if unit == "critical" else peaks
+    records = range(data.sizes["record"]) if "record" in data.dims else [None]
+    angles = range(data.sizes["slenderness"]) if name == "size" and "slenderness" in data.dims else [None]
     for record in records:
         for angle in angles:
             at = {key: k for key, k in (("record", record), ("slenderness", angle)) if k is not None}
             slenderness = ""
             if name != "slenderness" and (angle is not None or record is None):
                 slenderness = rf"$\theta_\mathrm{{cr}}$ = {degrees.flat[angle or 0]:.3g}°"
-            parts = ["" if record is None else str(found.name.values[record]), slenderness]
+            parts = ["" if record is None else str(data.name.values[record]), slenderness]
             yield Line(
                 ", ".join(filter(None, parts)) or "peak",
                 angle or 0,
                 slenderness,
-                np.where(fell.isel(at), np.nan, shown.isel(at)),
+                np.where(fell.isel(at), np.nan, heights.isel(at)),
                 fell.isel(at).values,
-                found.certified.isel(at).values != 0,
+                data.certified.isel(at).values != 0,
             )
 
 
@@ -132,32 +132,32 @@ def spectrum(
     instance("result", result, SpectralDensity)
     highest = within("highest", highest, 0.1, 1000.0)
     names = whole("names", names, 0, MAX_NAMES)
-    shown = quantities(block)
+    units = units_of(block)
     ax = style.own(ax, height=2.6)
     last = min(highest * (1 + 1e-9), result.forcing_multiples[-1])
     drawn = result.forcing_multiples <= last
     drawn[0] = False  # the mean is not part of the density
-    heights = shown.density(result.density[drawn])
+    heights = units.density(result.density[drawn])
     ax.plot(
-        shown.frequency(result.frequency[drawn]),
+        units.frequency(result.frequency[drawn]),
         heights,
         color=style.MOTION,
         linewidth=0.8 * style.LINE,
         rasterized=int(drawn.sum()) > style.MAX_CORNERS,
         gid="spectrum",
     )
-    forcing = shown.frequency(1 / result.system.periodic.period)
+    forcing = units.frequency(1 / result.system.periodic.period)
     for multiple in range(1, math.floor(last) + 1):
         ax.axvline(multiple * forcing, color=style.GUIDE, linewidth=style.THIN, linestyle=":", zorder=0)
     ax.set_yscale("log")
-    style.label(ax, shown.frequency_label, shown.density_label)
+    style.label(ax, units.frequency_label, units.density_label)
     _scale(ax, heights)
     ax.set_xlim(0.0, last * forcing * 1.02)
     chosen, upright = _apart(result.peaks, names, ax, last / result.system.periodic.period)
     for peak in chosen:
         ax.annotate(
             f"${peak.name}$",
-            (shown.frequency(peak.frequency), shown.density(peak.height)),
+            (units.frequency(peak.frequency), units.density(peak.height)),
             (0, 3),
             textcoords="offset points",
             rotation=90 if upright else 0,
@@ -190,8 +190,8 @@ def _apart(peaks: tuple[Peak, ...], most: int, ax: Axes, last: float) -> tuple[l
     root = ax.figure.canvas.figure
     root.draw_without_rendering()  # the width of the axes is known after the layout
     clear = 1.15 * style.SMALL / 72 * root.dpi / ax.get_window_extent().width * last
-    shown = np.sort([peak.frequency for peak in peaks if peak.frequency <= last])
-    gaps = np.diff(shown, prepend=-shown[0], append=np.inf) if len(shown) else np.zeros(1)
+    units = np.sort([peak.frequency for peak in peaks if peak.frequency <= last])
+    gaps = np.diff(units, prepend=-units[0], append=np.inf) if len(units) else np.zeros(1)
     wide = gaps.min() > HORIZONTAL * clear
     chosen: list[Peak] = []
     for rank, peak in enumerate(peaks):

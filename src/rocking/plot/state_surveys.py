@@ -117,8 +117,8 @@ def colours(attractors: tuple[Attractor, ...]) -> list[str]:
     return hues
 
 
-def _legend(ax: Axes, found: BasinMap, hues: list) -> None:
-    all_ = zip(found.attractors, found.fractions, hues, strict=True)
+def _legend(ax: Axes, result: BasinMap, hues: list) -> None:
+    all_ = zip(result.attractors, result.fractions, hues, strict=True)
     named = [(each, share, hue) for each, share, hue in all_ if share.value >= LEAST][:NAMED]
     handles = [
         Patch(
@@ -163,8 +163,8 @@ def safe_basin(result: SafeBasin, ax: Axes | None = None, block: Block | None = 
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.8)
-    >>> found = rk.safe_basin(system, amplitude=[3.3, 3.7, 5.5], samples=200)
-    >>> rk.plot.safe_basin(found).get_ylabel()
+    >>> result = rk.safe_basin(system, amplitude=[3.3, 3.7, 5.5], samples=200)
+    >>> rk.plot.safe_basin(result).get_ylabel()
     'safe fraction (%)'
     """
     instance("result", result, SafeBasin)

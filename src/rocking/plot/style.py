@@ -341,13 +341,13 @@ def looks(kind: np.ndarray, period: np.ndarray, symmetric: np.ndarray) -> np.nda
 
     `kind`, `period` and `symmetric` are the variables `kind`, `response_period` and `symmetric` of the map.
     """
-    found = np.full(kind.shape, NONE, np.uint8)
+    values = np.full(kind.shape, NONE, np.uint8)
     there = kind < len(_OF_KIND)
-    found[there] = _OF_KIND[kind[there]]
+    values[there] = _OF_KIND[kind[there]]
     periodic = kind == Kind.PERIODIC.code
     odd = np.select([period == 1, period == 3], [1, 3], 5) + (symmetric != 1)
-    found[periodic] = np.where(period % 2 == 0, 7, odd)[periodic]
-    return found
+    values[periodic] = np.where(period % 2 == 0, 7, odd)[periodic]
+    return values
 
 
 def look_of(verdict: Verdict) -> Look:

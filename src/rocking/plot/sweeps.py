@@ -18,7 +18,7 @@ from rocking.orbits.branch import Branch
 from rocking.orbits.orbit_diagram import OrbitDiagram
 from rocking.orbits.response_diagram import ResponseDiagram
 from rocking.plot import branch_lines, figures, style
-from rocking.plot.axes import parameter, quantities
+from rocking.plot.axes import parameter, units_of
 from rocking.plot.style import COLOURS, LOOKS, Look, looks
 
 WAYS = {
@@ -97,11 +97,11 @@ def orbit_diagram(
     followed = [
         _checked(result, branch) for branch in members("branches", branches, "be a sequence of Branch")
     ]
-    shown = quantities(block)
+    units = units_of(block)
     across, x_label = parameter(result.parameter, block)
-    upright = shown.velocity if quantity == "velocity" else shown.angle
+    upright = units.velocity if quantity == "velocity" else units.angle
     lines = [
-        branch_lines.branch_line(one, quantity, result.section_phase).shown(across, upright)
+        branch_lines.branch_line(one, quantity, result.section_phase).scaled(across, upright)
         for one in followed
     ]
     ax = style.own(ax, height=3.0)
@@ -112,7 +112,7 @@ def orbit_diagram(
         line.set_markersize(min(sizes))
     for stability in Stability:
         _branches(ax, lines, stability)
-    style.label(ax, x_label, branch_lines.height_label(quantity, shown))
+    style.label(ax, x_label, branch_lines.height_label(quantity, units))
     _bars(ax, result, across)
     ends = across(result.values[[0, -1]])
     if ends[1] > ends[0]:  # if all runs overturned there are no points; branches may extend farther
@@ -246,12 +246,12 @@ def response_diagram(result: ResponseDiagram, block: Block | None = None) -> Fig
     --------
     >>> import numpy as np, rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=9.0, period=1.721328), restitution=0.8)
-    >>> found = rk.response_diagram(system, amplitude=np.linspace(10.0, 11.0, 21))
-    >>> [text.get_text() for text in rk.plot.response_diagram(found).axes[2].get_legend().get_texts()]
+    >>> result = rk.response_diagram(system, amplitude=np.linspace(10.0, 11.0, 21))
+    >>> [text.get_text() for text in rk.plot.response_diagram(result).axes[2].get_legend().get_texts()]
     ['period 1, asymmetric', 'even period', 'chaotic', 'overturned']
     """
     instance("result", result, ResponseDiagram)
-    shown = quantities(block)
+    units = units_of(block)
     across, x_label = parameter(result.parameter, block)
     codes = looks(
         np.array([verdict.kind.code for verdict in result.verdicts]), result.period, result.symmetric
@@ -262,7 +262,7 @@ def response_diagram(result: ResponseDiagram, block: Block | None = None) -> Fig
     values = across(result.values)
     _bands(bands, values, codes)
     _response_points(
-        exponents, values, shown.frequency(result.exponent), shown.frequency(result.exponent_error), codes
+        exponents, values, units.frequency(result.exponent), units.frequency(result.exponent_error), codes
     )
     exponents.axhline(0.0, color=style.INK, linewidth=style.THIN, zorder=1, gid="zero")
     _triangles(exponents, values[np.isneginf(result.exponent)])

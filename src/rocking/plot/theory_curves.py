@@ -19,7 +19,7 @@ from rocking.model.orbit import Mode
 from rocking.model.quantity import AMPLITUDE, PERIOD, RESTITUTION
 from rocking.model.validation import Refusal, WrongType, members, one_of, reals, refuse_if
 from rocking.plot import branch_lines, style
-from rocking.plot.axes import parameter, quantities
+from rocking.plot.axes import parameter, units_of
 from rocking.plot.style import DOTTED
 from rocking.theory import (
     energy,
@@ -101,9 +101,9 @@ def _line(
 ) -> Line2D:
     (_, heights), (across, values) = axes.items()
     places = np.linspace(values[0], values[-1], POINTS)
-    given = dict(attributes) | {across: places}
-    period = math.tau / given["frequency"] if "frequency" in given else given["period"]
-    period, restitution = np.broadcast_arrays(period, given["restitution"])
+    arguments = dict(attributes) | {across: places}
+    period = math.tau / arguments["frequency"] if "frequency" in arguments else arguments["period"]
+    period, restitution = np.broadcast_arrays(period, arguments["restitution"])
     lines = lines_of(curve, period, restitution, heights[0], heights[-1])
     there = "" if np.isfinite(lines).any() else " (outside)"
     for line, dashes in zip(lines, (curve.dashes, DOTTED), strict=True):
@@ -328,20 +328,20 @@ def modes(
     most = min(max(BEYOND * breaks, 1.1 * marked, 1.1 * begins), AMPLITUDE.range[1])
     least = begins * (1.0 + NEAR) + NEAR
     ends = (most, min(slower_mode_amplitude(period, n) * (1.0 - NEAR), most))
-    shown = quantities(block)
+    units = units_of(block)
     ax = style.own(ax, height=2.9)
     across, x_label = parameter("amplitude", block)
 
     def up(mode: Mode) -> float:
-        return shown.velocity(mode.velocity) if quantity == "velocity" else mode.phase
+        return units.velocity(mode.velocity) if quantity == "velocity" else mode.phase
 
     for root, colour in ((0, style.MOTION), (1, style.IMPACT)):
         # dense near the fold, where both roots vary as a square root
         places = least + max(ends[root] - least, 0.0) * np.linspace(0.0, 1.0, POINTS) ** 2
-        found = (symmetric_modes(float(place), period, restitution, n) for place in places)
+        result = (symmetric_modes(float(place), period, restitution, n) for place in places)
         points = [
             (across(mode.amplitude), up(mode), _kind(mode))
-            for mode in (each[root] for each in found if len(each) > root)
+            for mode in (each[root] for each in result if len(each) > root)
         ]
         _draw(ax, points, colour, ("faster", "slower")[root], wraps=quantity == "phase")
     if amplitude is not None:
@@ -363,7 +363,7 @@ def modes(
             color=style.INK,
             gid="marked",
         )
-    label = shown.speed_label if quantity == "velocity" else r"forcing phase $\varphi$ at the impact (rad)"
+    label = units.speed_label if quantity == "velocity" else r"forcing phase $\varphi$ at the impact (rad)"
     style.label(ax, x_label, label)
     ax.set_xlim(left=0.0)
     forced = f"$T = {period:.6g}$" if block is None else f"$T = {block.seconds(period):.4g}$ s"
@@ -514,29 +514,29 @@ def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
     >>> ax.lines[0].get_label()
     'heteroclinic orbits'
     """
-    shown = quantities(block)
+    units = units_of(block)
     ax = style.own(ax, height=2.9)
     times = np.linspace(-MAX_TIME, MAX_TIME, TIMES_OF_A_CURVE)
     for orbit, label in (("upper", "heteroclinic orbits"), ("lower", None)):
         angle, velocity = heteroclinic_orbit(times, orbit)
         ax.plot(
-            shown.angle(angle),
-            shown.velocity(velocity),
+            units.angle(angle),
+            units.velocity(velocity),
             color=style.MOTION,
             linewidth=1.4 * style.LINE,
             label=label,
         )
         for time in (-0.9, 0.5):
-            _arrow(ax, shown, orbit, time)
+            _arrow(ax, units, orbit, time)
     for turn in INNER:
-        _closed(ax, shown, turn, "closed orbits" if turn == INNER[0] else None)
+        _closed(ax, units, turn, "closed orbits" if turn == INNER[0] else None)
     for angle, filled, label in (
         (1.0, False, "unstable equilibria"),
         (-1.0, False, None),
         (0.0, True, "stable equilibrium"),
     ):
         ax.plot(
-            shown.angle(angle),
+            units.angle(angle),
             0.0,
             linestyle="none",
             marker="o",
@@ -545,29 +545,29 @@ def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
             markerfacecolor=style.INK if filled else "white",
             label=label,
         )
-    style.label(ax, shown.angle_label, shown.velocity_label)
+    style.label(ax, units.angle_label, units.velocity_label)
     style.key(ax)
     return ax
 
 
-def _arrow(ax: Axes, shown, orbit: str, time: float) -> None:
+def _arrow(ax: Axes, units, orbit: str, time: float) -> None:
     """Draw an arrow in the direction of motion on an orbit."""
     (tail, head) = (heteroclinic_orbit(time + step, orbit) for step in (-0.02, 0.02))
     ax.annotate(
         "",
-        xy=(shown.angle(head[0]), shown.velocity(head[1])),
-        xytext=(shown.angle(tail[0]), shown.velocity(tail[1])),
+        xy=(units.angle(head[0]), units.velocity(head[1])),
+        xytext=(units.angle(tail[0]), units.velocity(tail[1])),
         arrowprops={"arrowstyle": "-|>", "color": style.MOTION, "shrinkA": 0, "shrinkB": 0},
     )
 
 
-def _closed(ax: Axes, shown, turn: float, label: str | None) -> None:
+def _closed(ax: Axes, units, turn: float, label: str | None) -> None:
     """Draw the closed orbit with the turning points ±`turn`, from its energy."""
     angle = turn * np.sin(np.linspace(0.0, math.tau, TIMES_OF_A_CURVE))
     left = np.maximum(2.0 * (energy(turn, 0.0) - energy(angle, 0.0)), 0.0)
     ax.plot(
-        shown.angle(angle),
-        shown.velocity(np.sqrt(left) * np.sign(np.cos(np.linspace(0.0, math.tau, TIMES_OF_A_CURVE)))),
+        units.angle(angle),
+        units.velocity(np.sqrt(left) * np.sign(np.cos(np.linspace(0.0, math.tau, TIMES_OF_A_CURVE)))),
         color=style.GUIDE,
         linewidth=style.THIN,
         label=label,

@@ -21,7 +21,7 @@ from rocking.model.validation import TooManyEvents, instance, whole
 from rocking.model.verdict import Kind, Outcome, Verdict
 from rocking.motion.simulate import simulate
 from rocking.plot import figures, style
-from rocking.plot.axes import Quantities, quantities
+from rocking.plot.axes import Units, units_of
 from rocking.plot.motions import phase_portrait, settled, time_history
 from rocking.plot.sections import section
 from rocking.plot.style import look_of
@@ -29,7 +29,7 @@ from rocking.response.lyapunov import LyapunovSpectrum
 
 ENDS = (Kind.OVERTURNED, Kind.REST)
 # Cycles in the time history (at least one period of a periodic response), and points in the section.
-SHOWN = 20
+MAX_SHOWN = 20
 DECAY_SHOWN = 200
 POINTS = 5_000
 # Last cycle up to which a run is repeated for drawing.
@@ -88,7 +88,7 @@ def verdict(result: Verdict, block: Block | None = None, *, title: bool = True) 
     3
     """
     instance("result", result, Verdict)
-    quantities(block)  # refused before there is a figure
+    units_of(block)  # refused before there is a figure
     instance("title", title, bool)
     figure = _figure(result, block)
     if title:
@@ -147,15 +147,15 @@ def _window(verdict: Verdict) -> tuple[int, int]:
         First cycle, and number of cycles.
     """
     if verdict.kind is Kind.OVERTURNED:
-        first = max(verdict.cycles - SHOWN, 0)
+        first = max(verdict.cycles - MAX_SHOWN, 0)
         return first, max(verdict.cycles - first, 1)
     if verdict.kind is Kind.REST:
         first = max(verdict.cycles - DECAY_SHOWN, 0)
         # rest is certain long before the last impact; the motion after the last impact is not drawn
-        return first, 10 * (verdict.cycles - first) + SHOWN
+        return first, 10 * (verdict.cycles - first) + MAX_SHOWN
     period = verdict.period or 1
     first = verdict.cycles + (0 if verdict.orbit is None else _settling(verdict.orbit))
-    return min(first, LATEST), period * max(1, math.ceil(SHOWN / period))
+    return min(first, LATEST), period * max(1, math.ceil(MAX_SHOWN / period))
 
 
 def _settling(orbit: Orbit) -> int:
@@ -209,10 +209,10 @@ def _on(orbit: Orbit, points: NDArray) -> NDArray:
 
 def _ring(ax: Axes, points: NDArray, block: Block | None, colour: str) -> None:
     ax.lines[-1].set(color=style.GUIDE, label="transient")
-    shown = quantities(block)
+    units = units_of(block)
     ax.plot(
-        shown.angle(points[:, 0]),
-        shown.velocity(points[:, 1]),
+        units.angle(points[:, 0]),
+        units.velocity(points[:, 1]),
         linestyle="none",
         marker="o",
         markersize=1.6 * style.MARK,
@@ -271,14 +271,14 @@ def convergence(
     """
     instance("result", result, LyapunovSpectrum)
     row = whole("exponent", exponent, 1, 2) - 1
-    shown = quantities(block)
-    final, error = (float(shown.frequency(each[row])) for each in (result.values, result.errors))
+    units = units_of(block)
+    final, error = (float(units.frequency(each[row])) for each in (result.values, result.errors))
     ax = style.own(ax)
     ax.set_xscale("log")
     if final == -math.inf:
         _superstable(ax, result.cycles)
     else:
-        _running(ax, result, row, shown)
+        _running(ax, result, row, units)
     unit = r"per $\tau$" if block is None else "(1/s)"
     style.label(ax, "cycles averaged over", rf"exponent $\lambda_{exponent}$ {unit}")
     style.logarithmic(ax.xaxis)
@@ -295,11 +295,11 @@ def _superstable(ax: Axes, cycles: int) -> None:
     )
 
 
-def _running(ax: Axes, spectrum: LyapunovSpectrum, row: int, shown: Quantities) -> None:
+def _running(ax: Axes, spectrum: LyapunovSpectrum, row: int, units: Units) -> None:
     """Draw the running average with its error, its final value, and zero if it lies within the axes."""
     history = spectrum.history
     cycles = history["cycles"]
-    values, errors = (shown.frequency(history[name][:, row]) for name in ("values", "errors"))
+    values, errors = (units.frequency(history[name][:, row]) for name in ("values", "errors"))
     known = np.isfinite(errors)
     ax.fill_between(
         cycles[known],
@@ -311,7 +311,7 @@ def _running(ax: Axes, spectrum: LyapunovSpectrum, row: int, shown: Quantities) 
         gid="error",
     )
     ax.axhline(
-        float(shown.frequency(spectrum.values[row])),
+        float(units.frequency(spectrum.values[row])),
         color=style.GUIDE,
         linewidth=style.THIN,
         linestyle="--",

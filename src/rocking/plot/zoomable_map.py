@@ -84,9 +84,9 @@ def tiles(
     >>> import numpy as np, tempfile
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.parametric_map(system, amplitude=np.linspace(0, 16, 20), period=np.linspace(0.2, 3, 20))
+    >>> result = rk.parametric_map(system, amplitude=np.linspace(0, 16, 20), period=np.linspace(0.2, 3, 20))
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     page = rk.plot.tiles(found, f"{folder}/map")
+    ...     page = rk.plot.tiles(result, f"{folder}/map")
     ...     sorted(path.name for path in page.parent.iterdir())
     ['index.html', 'tiles']
     """
@@ -193,7 +193,7 @@ def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | 
         "view": json.dumps(view).replace("<", "\\u003c"),  # no text ends the element of the script
     }
     template = files("rocking.plot").joinpath("zoomable_map.html").read_text(encoding="utf-8")
-    return re.sub(r"{{ (\w+) }}", lambda found: values[found[1]], template)
+    return re.sub(r"{{ (\w+) }}", lambda result: values[result[1]], template)
 
 
 def _legend_row(name: str, colour: str, hatch: str | None, share: float) -> str:

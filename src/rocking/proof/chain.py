@@ -41,7 +41,7 @@ class Chain(NamedTuple):
         return last == (-self.side if self.mirrored else self.side)
 
 
-class Link(NamedTuple):
+class ArcBounds(NamedTuple):
     """Arc between two events."""
 
     phase: arb
@@ -69,7 +69,7 @@ def law(p: Balls, kind: int) -> arb:
     return p.brace_restitution if kind == BRACE else p.restitution
 
 
-def link(p: Balls, side: int, ends: tuple[arb, arb], phases: tuple[arb, arb]) -> Link:
+def link(p: Balls, side: int, ends: tuple[arb, arb], phases: tuple[arb, arb]) -> ArcBounds:
     """Return the arc between two places at two forcing phases, the second one later."""
     rate, swing = p.frequency, side * p.response
     time = (phases[1] - phases[0]) / rate
@@ -82,7 +82,7 @@ def link(p: Balls, side: int, ends: tuple[arb, arb], phases: tuple[arb, arb]) ->
     slow, fast = (above0 - above1 * cosh) / (sinh * sinh), (above0 * cosh - above1) / (sinh * sinh)
     turn0, turn1, bend = swing * sine0, swing * sine1, swing * rate
     push = side * p.amplitude
-    return Link(
+    return ArcBounds(
         phases[0],
         time,
         forward / sinh - bend * sine0,
@@ -100,7 +100,7 @@ def link(p: Balls, side: int, ends: tuple[arb, arb], phases: tuple[arb, arb]) ->
     )
 
 
-def links_of(p: Balls, chain: Chain, phases: list[arb]) -> list[Link] | None:
+def links_of(p: Balls, chain: Chain, phases: list[arb]) -> list[ArcBounds] | None:
     """Return the arcs of a chain; None if events may change their order."""
     turn, result = chain.half_turns * arb.pi(), []
     for j, side in enumerate(chain.sides):
@@ -113,7 +113,7 @@ def links_of(p: Balls, chain: Chain, phases: list[arb]) -> list[Link] | None:
     return result
 
 
-def residuals(p: Balls, chain: Chain, links: list[Link]) -> arb_mat:
+def residuals(p: Balls, chain: Chain, links: list[ArcBounds]) -> arb_mat:
     """Return the equations of the chain, a column."""
     rows = [
         [one.leaves + law(p, kind) * links[j - 1].arrives]
@@ -122,7 +122,7 @@ def residuals(p: Balls, chain: Chain, links: list[Link]) -> arb_mat:
     return arb_mat(rows)
 
 
-def jacobian(p: Balls, chain: Chain, links: list[Link]) -> arb_mat:
+def jacobian(p: Balls, chain: Chain, links: list[ArcBounds]) -> arb_mat:
     """Return the derivatives of the equations by the phases."""
     k = len(links)
     rows = [[arb(0)] * k for _ in range(k)]

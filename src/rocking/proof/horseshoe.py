@@ -15,7 +15,7 @@ from rocking.model.orbit import Orbit
 from rocking.model.proof import Horseshoe
 from rocking.model.system import System
 from rocking.proof.arc import Balls, Refused, Values, balls_of, hull, stays_positive
-from rocking.proof.chain import Chain, Link, law, link, links_of, place
+from rocking.proof.chain import ArcBounds, Chain, law, link, links_of, place
 from rocking.proof.periodic import chain_of, check_arc, solved
 
 PRECISIONS = (128, 256, 512)
@@ -176,7 +176,7 @@ def word_of(p: Balls, chain: Chain) -> Word:
     return Word(chain, [psi.mid() for psi in result.box])
 
 
-def block_links(p: Balls, word: Word, phases: list[arb]) -> list[Link]:
+def block_links(p: Balls, word: Word, phases: list[arb]) -> list[ArcBounds]:
     """Return the arcs of a word. ``phases`` begin with the last event before it and end with the first event after it."""
     kinds = word.kinds
     if not all(one < other for one, other in pairwise(phases)):

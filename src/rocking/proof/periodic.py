@@ -10,7 +10,7 @@ from flint import acb, arb, arb_mat
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.model.orbit import Orbit
 from rocking.proof.arc import Balls, Refused, arc_from, balls_of, stays_positive
-from rocking.proof.chain import Chain, Link, jacobian, law, links_of, place, residuals
+from rocking.proof.chain import ArcBounds, Chain, jacobian, law, links_of, place, residuals
 from rocking.proof.krawczyk import Equations, Solution, solve
 from rocking.proof.trajectory import (
     State,
@@ -59,7 +59,7 @@ def chain_of(orbit: Orbit) -> Chain:
     )
 
 
-def monodromy(p: Balls, chain: Chain, links: list[Link]) -> arb_mat:
+def monodromy(p: Balls, chain: Chain, links: list[ArcBounds]) -> arb_mat:
     """Return the derivative of the return map over the chain, in (u, u') just after the first event.
 
     The saltation matrix of an event is [[-law, 0], [(u''+ + law u''-)/u'-, -law]].
@@ -154,7 +154,7 @@ class Enclosed(NamedTuple):
     p: Balls
     chain: Chain
     found: Solution
-    links: list[Link]
+    links: list[ArcBounds]
     trace: arb  # of the derivative of the map over the chain
     determinant: arb
 
@@ -188,7 +188,7 @@ def equations(p: Balls, chain: Chain) -> Equations:
     return Equations(values, derivatives)
 
 
-def solved(p: Balls, chain: Chain) -> tuple[Solution, list[Link]]:
+def solved(p: Balls, chain: Chain) -> tuple[Solution, list[ArcBounds]]:
     """Return the only closed motion near a chain, with its arcs, at the present precision; it may be repeated or symmetric.
 
     Raises
@@ -215,13 +215,13 @@ def enclosed(p: Balls, chain: Chain) -> Enclosed:
     return Enclosed(p, chain, result, links, matrix[0, 0] + matrix[1, 1], determinant(p, chain))
 
 
-def check_arcs(p: Balls, chain: Chain, links: list[Link]) -> None:
+def check_arcs(p: Balls, chain: Chain, links: list[ArcBounds]) -> None:
     """Raise Refused unless every arc leaves its first event, meets nothing on its way, and reaches its last event."""
     for j, (side, one) in enumerate(zip(chain.sides, links, strict=True)):
         check_arc(p, side, (chain.kinds[j], chain.kinds[(j + 1) % len(links)]), one)
 
 
-def check_arc(p: Balls, side: int, kinds: tuple[int, int], one: Link) -> None:
+def check_arc(p: Balls, side: int, kinds: tuple[int, int], one: ArcBounds) -> None:
     """Raise Refused unless an arc between events of two kinds meets nothing on its way, with the right signs of its speeds."""
     first, last = kinds
     leaves = one.leaves > 0 if first == IMPACT else one.leaves < 0

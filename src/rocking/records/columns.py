@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.model.text import counted, shown
+from rocking.model.text import counted, formatted
 from rocking.records.text_file import (
     IN_BRACKETS,
     MAX_SAMPLES,
@@ -65,13 +65,13 @@ def unlike(file: TextFile) -> str:
     first = _first_row(file)
     comma = next((index for index, line in enumerate(lines) if DECIMAL_COMMA.match(line)), None)
     if comma is not None:
-        return f", line {comma + 1}: numbers with a decimal point expected; got {shown(lines[comma].strip())}"
+        return f", line {comma + 1}: numbers with a decimal point expected; got {formatted(lines[comma].strip())}"
     if first is None:
         row = next((index for index, line in enumerate(lines) if re.match(r"\s*[-+.]?\d", line)), None)
         if row is not None:
-            return f", line {row + 1}: numbers alone expected; got {shown(lines[row].strip())}"
+            return f", line {row + 1}: numbers alone expected; got {formatted(lines[row].strip())}"
         begin = next(line for line in file.lines if line.strip()).strip()
-        return f": neither a record nor a table with a column 'file'; it begins with {shown(begin)}"
+        return f": neither a record nor a table with a column 'file'; it begins with {formatted(begin)}"
     width = len(_parts(lines[first]))
     if width <= 2 or _heads(file, first, width):
         return ""
@@ -112,7 +112,7 @@ def _rows(file: TextFile, first: int, width: int) -> tuple[list[int], list[list[
             rows.append(row)
         elif not COMMENT.match(file.lines[index]):
             raise file.error(
-                index, f"{counted(width, 'number')} expected; got {shown(file.lines[index].strip())}"
+                index, f"{counted(width, 'number')} expected; got {formatted(file.lines[index].strip())}"
             )
     if len(rows) > MAX_SAMPLES:
         raise file.error(places[MAX_SAMPLES], f"more than {MAX_SAMPLES:,} samples")
@@ -149,13 +149,15 @@ def _titles(file: TextFile, first: int, width: int) -> list[Title]:
     time = {*map(str.lower, WORD.findall(head[0])), *map(str.lower, WORD.findall(below[0] if below else ""))}
     if not time <= {*TIME, *TIMES, "in", "elapsed"}:
         raise file.error(
-            place, f"times in s expected; the header gives {shown(' '.join([head[0], *below[:1]]))}"
+            place, f"times in s expected; the header gives {formatted(' '.join([head[0], *below[:1]]))}"
         )
     titled = [_title(file, place, *each) for each in zip(head[1:], below[1:] or [""] * width, strict=False)]
     with_unit = sum(each.unit is not None for each in titled)
     if 0 < with_unit < len(titled):
         lacks = next(cell for cell, each in zip(head[1:], titled, strict=True) if each.unit is None)
-        raise file.error(place, f"a unit of acceleration expected in the title {shown(lacks)}, as in others")
+        raise file.error(
+            place, f"a unit of acceleration expected in the title {formatted(lacks)}, as in others"
+        )
     return titled
 
 
@@ -172,7 +174,8 @@ def _title(file: TextFile, place: int, cell: str, below: str) -> Title:
     if (_plain(below) and unit is None) or not all(map(DIRECTION.fullmatch, names)):
         shape = "name directions and units of acceleration, such as time (s),NS (g),EW (g), and remove other columns"
         raise file.error(
-            place, f"{shown(' '.join(filter(None, (cell, below))))} is not known as an acceleration; {shape}"
+            place,
+            f"{formatted(' '.join(filter(None, (cell, below))))} is not known as an acceleration; {shape}",
         )
     return Title(" ".join(names), unit)
 
@@ -200,9 +203,11 @@ def _check_titles(file: TextFile, first: int, width: int) -> None:
                 continue  # words
         if is_other(result[-1]) or OTHER_QUANTITY.match(cells(line)[-1]):
             units = "m/s², cm/s², mm/s², g or gal"
-            raise file.error(index, f"acceleration in {units} expected; the header gives {shown(result[-1])}")
+            raise file.error(
+                index, f"acceleration in {units} expected; the header gives {formatted(result[-1])}"
+            )
         if width > 1 and {*OTHER_TIMES} & {result[0].lower(), *map(str.lower, WORD.findall(cells(line)[0]))}:
-            raise file.error(index, f"times in s expected; the header gives {shown(result[0])}")
+            raise file.error(index, f"times in s expected; the header gives {formatted(result[0])}")
 
 
 def _step(file: TextFile, places: list[int], texts: list[str]) -> float:

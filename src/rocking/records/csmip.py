@@ -49,10 +49,10 @@ def _channel(file: TextFile, first: int, line: int) -> tuple[Channel, int]:
         raise file.error(line, "number of points, time step or rate, and unit expected")
     unit = file.unit(line, match.group(3))
     step = file.step_of_rate(line, match.group(2)) if raw else file.step(line, match.group(2))
-    given = file.find(FORMAT, line, line + 1)
-    if raw and given is None:
+    values = file.find(FORMAT, line, line + 1)
+    if raw and values is None:
         raise file.error(line, "format of the samples expected, such as (8F9.6)")
-    columns = file.layout(line, given[1].group(1), given[1].group(2)) if given else COLUMNS
+    columns = file.layout(line, values[1].group(1), values[1].group(2)) if values else COLUMNS
     samples, after = file.columns(line + 1, file.count(line, match.group(1)), *columns)
     title = file.find(TITLE, first, line)
     begin = title[0] if title else first

@@ -33,7 +33,7 @@ class _Source(NamedTuple):
     channels: list[Channel]
 
 
-class _Given(NamedTuple):
+class _Settings(NamedTuple):
     """Arguments that state what the file may leave open."""
 
     unit: str | None
@@ -108,13 +108,13 @@ def read_ground_motion(
     >>> read_ground_motion(path)
     GroundMotion(pulse.csv, 2 samples, step 0.02 s, PGA 0.9807 m/s²)
     """
-    given = _given(units, step, baseline)
+    settings = _settings(units, step, baseline)
     result = _source(source, name)
     count = len(result.channels)
     number = whole("channel", channel, 1, 10**9)
     if number > count:
         raise Refusal("channel", f"be 1 to {count}, the channels of {result.name}", channel)
-    return _warned(result, number, *_motion(result, number, given))
+    return _warned(result, number, *_motion(result, number, settings))
 
 
 def read_ground_motions(
@@ -159,23 +159,23 @@ def read_ground_motions(
     >>> [motion.pga for motion in read_ground_motions(path, units="m/s²", step=0.01)]
     [2.0]
     """
-    given = _given(units, step, baseline)
+    settings = _settings(units, step, baseline)
     result = _source(source, name)
     numbers = range(1, len(result.channels) + 1)
-    return tuple(_warned(result, number, *_motion(result, number, given)) for number in numbers)
+    return tuple(_warned(result, number, *_motion(result, number, settings)) for number in numbers)
 
 
-def read_with_doubts(
+def read_with_warnings(
     data: bytes, *, units: str | None, step: float | None, name: str
 ) -> list[tuple[GroundMotion, list[str]]]:
     """Return all channels as `read_ground_motions` does, each with the sentences of its warnings."""
-    given = _given(units, step, "none")
+    settings = _settings(units, step, "none")
     result = _source(data, name)
-    return [_motion(result, number, given) for number in range(1, len(result.channels) + 1)]
+    return [_motion(result, number, settings) for number in range(1, len(result.channels) + 1)]
 
 
-def _given(units: str | None, step: float | None, baseline: str) -> _Given:
-    return _Given(
+def _settings(units: str | None, step: float | None, baseline: str) -> _Settings:
+    return _Settings(
         None if units is None else given_unit(units),
         None if step is None else within("step", step, *STEPS, "s"),
         one_of("baseline", baseline, tuple(BASELINES)),
@@ -200,39 +200,39 @@ def _place(source: _Source, number: int) -> str:
     return f"{source.name}, channel {number}" if len(source.channels) > 1 else source.name
 
 
-def _warned(source: _Source, number: int, motion: GroundMotion, doubts: list[str]) -> GroundMotion:
-    for doubt in doubts:
+def _warned(source: _Source, number: int, motion: GroundMotion, messages: list[str]) -> GroundMotion:
+    for doubt in messages:
         warn_of_input(f"{_place(source, number)}: {doubt}")
     return motion
 
 
-def _motion(source: _Source, number: int, given: _Given) -> tuple[GroundMotion, list[str]]:
+def _motion(source: _Source, number: int, settings: _Settings) -> tuple[GroundMotion, list[str]]:
     """Return the motion of a channel, and a sentence on each doubt about its unit."""
     channel, several = source.channels[number - 1], len(source.channels) > 1
-    place, doubts = _place(source, number), []
+    place, messages = _place(source, number), []
     stated = channel.unit
     named = " and ".join(sorted(channel.named))
-    if len(channel.named) > 1 and given.unit not in channel.named:
-        rejected = f", not {given.unit}" if given.unit else ""
+    if len(channel.named) > 1 and settings.unit not in channel.named:
+        rejected = f", not {settings.unit}" if settings.unit else ""
         raise RecordError(f"{place}: the header names the units {named}{rejected}; give one of them as units")
     if len(channel.named) > 1:
-        doubts.append(f"units={given.unit!r} is used; the header names {named}")
-    elif given.unit and channel.named and given.unit not in channel.named:
+        messages.append(f"units={settings.unit!r} is used; the header names {named}")
+    elif settings.unit and channel.named and settings.unit not in channel.named:
         raise RecordError(f"{place}: the header names {named}; omit units, or correct the header")
-    if given.unit and channel.mentioned and not channel.named:
+    if settings.unit and channel.mentioned and not channel.named:
         stated = None
-        if given.unit not in channel.mentioned:
+        if settings.unit not in channel.mentioned:
             names = " and ".join(sorted(channel.mentioned))
-            doubts.append(f"units={given.unit!r} is used, though the header mentions {names}")
+            messages.append(f"units={settings.unit!r} is used, though the header mentions {names}")
     unit = _stated(
         f"{place}: {channel.lacking}" if channel.lacking else place,
         "units",
         stated,
-        given.unit,
+        settings.unit,
         "the unit of its samples",
         "g" if channel.lacking else "m/s²",
     )
-    step = _stated(place, "step", channel.step, given.step, "its time step", "0.01")
+    step = _stated(place, "step", channel.step, settings.step, "its time step", "0.01")
     samples = channel.samples * UNITS[unit]
     name, component = (" ".join(text.split()) for text in (channel.name, channel.component))
     file = None
@@ -253,44 +253,46 @@ def _motion(source: _Source, number: int, given: _Given) -> tuple[GroundMotion, 
             step=step,
             name=name or source.name,
             component=component,
-            baseline=given.baseline,
+            baseline=settings.baseline,
             file=file,
         )
     except ValueError as error:
         raise RecordError(f"{place}: {error}") from error
     if motion.step > MAX_USUAL_STEP:
-        doubts.append(f"a time step of {motion.step:g} s is unusual: times are in s")
+        messages.append(f"a time step of {motion.step:g} s is unusual: times are in s")
     if doubt := pga_doubt(float(np.abs(samples).max())):
-        doubts.append(f"{doubt}, {unit}")
+        messages.append(f"{doubt}, {unit}")
     if file is not None and file.pga_agrees is False:
-        doubts.append(
+        messages.append(
             f"the samples have a PGA of {file.pga:.5g} m/s², the header states {file.header_pga:.5g} m/s²"
         )
-    return motion, doubts
+    return motion, messages
 
 
-def _stated(place: str, argument: str, stated: Any, given: Any, what: str, example: str) -> Any:
+def _stated(place: str, argument: str, stated: Any, value: Any, what: str, example: str) -> Any:
     """Return what the file states or the argument gives; `RecordError` unless exactly one does."""
-    if stated is None and given is None:
-        shown = repr(example) if argument == "units" else example
-        raise RecordError(f"{place}: the file does not state {what}; give it, for example {argument}={shown}")
-    if stated is not None and given is not None:
+    if stated is None and value is None:
+        example_text = repr(example) if argument == "units" else example
+        raise RecordError(
+            f"{place}: the file does not state {what}; give it, for example {argument}={example_text}"
+        )
+    if stated is not None and value is not None:
         raise RecordError(f"{place}: the file states {what}, {stated}; do not give {argument}")
-    return given if stated is None else stated
+    return value if stated is None else stated
 
 
 MAX_MEMORY = 4 << 30
 """Largest address space of the process in bytes, where the operating system has such a limit."""
 
 
-def read_apart(data: bytes, seconds: float, **given: Any) -> list[tuple[GroundMotion, list[str]]]:
-    """Read all channels of a file in memory as `read_with_doubts` does; `RecordError` if it takes longer than `seconds`."""
+def read_apart(data: bytes, seconds: float, **settings: Any) -> list[tuple[GroundMotion, list[str]]]:
+    """Read all channels of a file in memory as `read_with_warnings` does; `RecordError` if it takes longer than `seconds`."""
     # The same modules as here, and one thread: each thread of OpenBLAS takes address space.
     same = {"PYTHONPATH": os.pathsep.join(sys.path), "OPENBLAS_NUM_THREADS": "1"}
     try:
         done = subprocess.run(
             [sys.executable, "-P", "-c", f"from {__name__} import answer; answer()"],
-            input=pickle.dumps((data, given, MAX_MEMORY)),
+            input=pickle.dumps((data, settings, MAX_MEMORY)),
             capture_output=True,
             timeout=seconds,
             env=os.environ | same,
@@ -308,14 +310,14 @@ def read_apart(data: bytes, seconds: float, **given: Any) -> list[tuple[GroundMo
 
 def answer() -> None:
     """Read the file that comes on stdin, and write its channels, or the error, on stdout."""
-    data, given, memory = pickle.load(sys.stdin.buffer)
+    data, settings, memory = pickle.load(sys.stdin.buffer)
     with suppress(ImportError, ValueError, OSError):  # no such limit on Windows; a lower one stays
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     result: list[tuple[GroundMotion, list[str]]] | Exception
     try:
-        result = read_with_doubts(data, **given)
+        result = read_with_warnings(data, **settings)
     except MemoryError:
         result = RecordError(f"reading takes more than {memory >> 20:,} MB of memory: give a shorter file")
     except (ValueError, TypeError) as error:

@@ -17,7 +17,7 @@ from attrs import evolve
 from rocking.model.files import resolve_path
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.record_set import RecordSet
-from rocking.model.text import counted, listed, shown
+from rocking.model.text import counted, formatted, listed
 from rocking.model.validation import Refusal, WrongType, members, warn_of_input
 from rocking.records.read import read_ground_motion, read_ground_motions
 from rocking.records.text_file import TEXTS, Content, RecordError, TextFile
@@ -61,7 +61,7 @@ def rows(path: Path) -> list[Row]:
     for number, head in enumerate(heads):
         if not head or head in heads[:number]:
             raise RecordError(
-                f"{text.name}: columns must have distinct names; got {shown(head)} in column {number + 1}"
+                f"{text.name}: columns must have distinct names; got {formatted(head)} in column {number + 1}"
             )
     result = []
     for cells in _cells(lines, text.name):
@@ -71,10 +71,10 @@ def rows(path: Path) -> list[Row]:
                 raise RecordError(
                     f"{place}: {len(cells)} cells under {len(heads)} columns; put a text with commas in quotes"
                 )
-            given = dict.fromkeys(heads, "") | {
+            values = dict.fromkeys(heads, "") | {
                 head: cell.strip() for head, cell in zip(heads, cells, strict=False)
             }
-            result.append(_row(place, path.parent, given))
+            result.append(_row(place, path.parent, values))
     if not result:
         raise RecordError(f"{text.name}: the table has no rows")
     return result
@@ -129,7 +129,7 @@ def _number(place: str, head: str, cell: str) -> float:
         value = math.inf
     if not np.isfinite(value):
         remedy = "" if head in OWN else "; remove the column if it is no number of each record"
-        raise RecordError(f"{place}: column {head!r} must hold numbers; got {shown(cell)}{remedy}")
+        raise RecordError(f"{place}: column {head!r} must hold numbers; got {formatted(cell)}{remedy}")
     return value
 
 
@@ -205,19 +205,19 @@ def read_record_set(
     >>> records.names, [motion.pga for motion in records], records.columns["magnitude"].tolist()
     (('a.txt', 'b.txt'), [3.0, 2.0], [6.5, 7.1])
     """
-    given = {"units": units, "step": step, "baseline": baseline}
+    values = {"units": units, "step": step, "baseline": baseline}
     if isinstance(source, str | os.PathLike):
         path = Path(source)
         resolve_path("source", path)
         if path.is_dir():
-            return _set(_of_files(_folder(path), given, _way_out_of(path)), path.name)
+            return _set(_of_files(_folder(path), values, _way_out_of(path)), path.name)
         if is_table(path):
-            return _of_table(path, given)
-        return _set(_of_files([path], given), path.name)
+            return _of_table(path, values)
+        return _set(_of_files([path], values), path.name)
     paths = [_path(each) for each in members("source", source, ALLOWED)]
     if not paths:
         raise Refusal("source", "name one record file at least", paths)
-    return _set(_of_files(paths, given), "source")
+    return _set(_of_files(paths, values), "source")
 
 
 _Station = tuple[str, float, int]
@@ -262,13 +262,13 @@ def _way_out_of(path: Path) -> str:
     )
 
 
-def _of_files(paths: Sequence[Path], given: dict[str, Any], remedy: str = "") -> list[_Member]:
+def _of_files(paths: Sequence[Path], values: dict[str, Any], remedy: str = "") -> list[_Member]:
     """Return the motions of files, each named by its file; by its path if several files have that name."""
     names = Counter(path.name for path in paths)
     result = []
     for path in paths:
         try:
-            motions = read_ground_motions(path, **given)
+            motions = read_ground_motions(path, **values)
         except RecordError as error:
             raise RecordError(f"{error}{_of_several(error) if len(paths) > 1 else ''}{remedy}") from error
         result += _members(motions, path.name if names[path.name] == 1 else path.as_posix())
@@ -303,12 +303,12 @@ def _members(
     return result
 
 
-def _of_table(path: Path, given: dict[str, Any]) -> RecordSet:
+def _of_table(path: Path, values: dict[str, Any]) -> RecordSet:
     table = rows(path)
     names = Counter(row.path.name for row in table)
     result: list[_Member] = []
     for row in table:
-        own = given | {
+        own = values | {
             name: value for name, value in (("units", row.units), ("step", row.step)) if value is not None
         }
         try:

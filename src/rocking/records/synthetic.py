@@ -157,7 +157,7 @@ def _high_pass(motion: np.ndarray, step: float, frequency: float, damping: float
 
 
 def _bilinear(
-    given: np.ndarray, step: float, numerator: tuple[float, float, float], frequency: float, damping: float
+    values: np.ndarray, step: float, numerator: tuple[float, float, float], frequency: float, damping: float
 ) -> np.ndarray:
     """Filter columns by a ratio of polynomials in s, with s = 2 (1 − 1/z) / (step (1 + 1/z)), from rest."""
     rate = 2 / step
@@ -165,9 +165,9 @@ def _bilinear(
         (c2 * rate * rate + c1 * rate + c0, 2 * (c0 - c2 * rate * rate), c2 * rate * rate - c1 * rate + c0)
         for c2, c1, c0 in (numerator, (1.0, 2 * damping * frequency, frequency * frequency))
     )
-    result = np.empty_like(given)
-    first = second = np.zeros(given.shape[1])
-    for k, row in enumerate(given):
+    result = np.empty_like(values)
+    first = second = np.zeros(values.shape[1])
+    for k, row in enumerate(values):
         result[k] = (b[0] * row + first) / a[0]
         first = b[1] * row - a[1] * result[k] + second
         second = b[2] * row - a[2] * result[k]

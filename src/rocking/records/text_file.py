@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.model.block_formulas import GRAVITY
-from rocking.model.text import both_ends, counted, shown
+from rocking.model.text import both_ends, counted, formatted
 from rocking.model.validation import Refusal, WrongType
 
 TEXTS = "formats: PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, text in columns"
@@ -246,35 +246,35 @@ class Content:
         if not isinstance(name, str):
             raise WrongType("name", "be a str", name)
         self.name = name
-        shown = both_ends(name)
+        label = both_ends(name)
         if len(data) > MAX_BYTES:
-            raise RecordError(f"{shown}: larger than {MAX_BYTES // 1_000_000} MB")
-        self._take(data, shown)
+            raise RecordError(f"{label}: larger than {MAX_BYTES // 1_000_000} MB")
+        self._take(data, label)
 
     def _read(self, place: Path) -> None:
         """Read a file."""
         self.name = place.name
-        shown = both_ends(os.fspath(place))
+        label = both_ends(os.fspath(place))
         try:
             about = place.stat()
             if stat.S_ISDIR(about.st_mode):
-                raise RecordError(f"{shown}: a folder; give the path of one file")
+                raise RecordError(f"{label}: a folder; give the path of one file")
             if not stat.S_ISREG(about.st_mode):
-                raise RecordError(f"{shown}: not a regular file")
+                raise RecordError(f"{label}: not a regular file")
             if about.st_size > MAX_BYTES:
-                raise RecordError(f"{shown}: larger than {MAX_BYTES // 1_000_000} MB")
+                raise RecordError(f"{label}: larger than {MAX_BYTES // 1_000_000} MB")
             data = place.read_bytes()
         except (OSError, ValueError) as error:
             if isinstance(error, RecordError):
                 raise
             reason = getattr(error, "strerror", None) or error
             advice = "; check the path" if isinstance(error, FileNotFoundError) else ""
-            raise RecordError(f"{shown}: cannot be read: {reason}{advice}") from error
-        self._take(data, shown)
+            raise RecordError(f"{label}: cannot be read: {reason}{advice}") from error
+        self._take(data, label)
 
-    def _take(self, data: bytes, shown: str) -> None:
+    def _take(self, data: bytes, label: str) -> None:
         if not data.strip():
-            raise RecordError(f"{shown}: the file is empty")
+            raise RecordError(f"{label}: the file is empty")
         self.data = data
         self.sha256 = hashlib.sha256(self.data).hexdigest()
 
@@ -326,9 +326,9 @@ class TextFile:
 
     def find(self, pattern: str, first: int = 0, last: int | None = None) -> tuple[int, re.Match[str]] | None:
         """Return the first line with a pattern and the match, upper and lower case being the same."""
-        wanted = re.compile(pattern, re.IGNORECASE)
+        requested = re.compile(pattern, re.IGNORECASE)
         for index in range(first, min(len(self.lines), len(self.lines) if last is None else last)):
-            match = wanted.search(self.lines[index])
+            match = requested.search(self.lines[index])
             if match:
                 return index, match
         return None
@@ -348,7 +348,7 @@ class TextFile:
         """Return the width of a column and the columns in a line, from the texts in a format such as (8F10.3)."""
         if not all(len(text) <= MAX_DIGITS and int(text) for text in (per_line, width)):
             raise self.error(
-                line, f"a format such as (8F10.3) expected; got {shown(self.lines[line].strip())}"
+                line, f"a format such as (8F10.3) expected; got {formatted(self.lines[line].strip())}"
             )
         return int(width), int(per_line)
 
@@ -357,7 +357,7 @@ class TextFile:
         text = text.strip()
         value = float(re.sub("[Dd]", "E", text)) if NUMBER.fullmatch(text) else math.nan
         if not math.isfinite(value):
-            raise self.error(line, f"{what} must be a number; got {shown(text)}")
+            raise self.error(line, f"{what} must be a number; got {formatted(text)}")
         return value
 
     def numbers(self, lines: list[int], texts: list[str], what: str) -> np.ndarray:
@@ -399,7 +399,7 @@ class TextFile:
         """Return a unit of acceleration."""
         result = unit_of(text)
         if result is None:
-            raise self.error(line, f"a unit of acceleration expected; got {shown(text.strip())}")
+            raise self.error(line, f"a unit of acceleration expected; got {formatted(text.strip())}")
         return result
 
     def peak(self, line: int, text: str, unit: str) -> Peak:
@@ -419,13 +419,13 @@ class TextFile:
         index = first
         while len(result) < count:
             line = self._sample_line(index, len(result), count)
-            wanted = min(per_line, count - len(result))
-            if line[wanted * width :].strip():
-                raise self.error(index, self._too_many(count, wanted))
-            if len(line) <= (wanted - 1) * width:
+            requested = min(per_line, count - len(result))
+            if line[requested * width :].strip():
+                raise self.error(index, self._too_many(count, requested))
+            if len(line) <= (requested - 1) * width:
                 before = f"{len(result):,} of {count:,} were read before it"
-                raise self.error(index, f"the line ends before its {counted(wanted, 'sample')}; {before}")
-            parts = [line[k * width : (k + 1) * width] for k in range(wanted)]
+                raise self.error(index, f"the line ends before its {counted(requested, 'sample')}; {before}")
+            parts = [line[k * width : (k + 1) * width] for k in range(requested)]
             result += [self.number(index, part, "a sample") for part in parts]
             index += 1
         if not more:
@@ -439,7 +439,7 @@ class TextFile:
         while len(result) < count:
             line = self._sample_line(index, len(result), count)
             if SEPARATE.sub("", line).strip(" \t,"):
-                raise self.error(index, f"numbers expected; got {shown(line.strip())}")
+                raise self.error(index, f"numbers expected; got {formatted(line.strip())}")
             result += [self.number(index, part, "a sample") for part in SEPARATE.findall(line)]
             index += 1
         if len(result) > count:
@@ -461,6 +461,6 @@ class TextFile:
             raise self.error(index, self._too_many(count, count))
 
     @staticmethod
-    def _too_many(count: int, wanted: int) -> str:
-        where = "" if wanted == count else f", or more than {counted(wanted, 'number')} in a line"
+    def _too_many(count: int, requested: int) -> str:
+        where = "" if requested == count else f", or more than {counted(requested, 'number')} in a line"
         return f"more than the {counted(count, 'sample')} of the header{where}"

@@ -90,8 +90,8 @@ def mean_impacts(verdict: Verdict) -> MeanImpacts:
     Examples
     --------
     >>> import rocking as rk
-    >>> found = mean_impacts(rk.classify(rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)))
-    >>> round(found.value, 6), found.error  # two impacts in three cycles
+    >>> result = mean_impacts(rk.classify(rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)))
+    >>> round(result.value, 6), result.error  # two impacts in three cycles
     (0.666667, 0.0)
     """
     if verdict.kind is Kind.REST:
@@ -145,7 +145,7 @@ def _counted(verdict: Verdict) -> MeanImpacts:
 Wanted = bool | Literal["orbit"]
 
 
-def check_wanted(wanted: Wanted, system: System) -> None:
+def check_wanted(requested: Wanted, system: System) -> None:
     """Raise an error unless a proof is not wanted, or can be tried.
 
     Raises
@@ -153,29 +153,29 @@ def check_wanted(wanted: Wanted, system: System) -> None:
     ImportError
         If python-flint is not installed.
     ValueError
-        If the block is not slender, or `wanted` is neither a boolean nor "orbit".
+        If the block is not slender, or `requested` is neither a boolean nor "orbit".
     """
-    known = isinstance(wanted, bool) or (isinstance(wanted, str) and wanted == "orbit")
-    refuse_if(not known, "prove", 'be False, True or "orbit"', wanted)
-    if wanted:
+    known = isinstance(requested, bool) or (isinstance(requested, str) and requested == "orbit")
+    refuse_if(not known, "prove", 'be False, True or "orbit"', requested)
+    if requested:
         check_provable(system)
 
 
-def with_proof(verdict: Verdict, wanted: Wanted) -> Verdict:
+def with_proof(verdict: Verdict, requested: Wanted) -> Verdict:
     """Return a verdict with the proof of its orbit, which never changes the type of response.
 
     Only the proof that the initial state leads to the orbit raises the level of the evidence to "proved".
     """
-    if not wanted:
+    if not requested:
         return verdict
     if verdict.orbit is None:
-        shown = f"{verdict.evidence.shown} Only a periodic response is proved in ball arithmetic."
-        return evolve(verdict, evidence=evolve(verdict.evidence, shown=shown))
-    proof = prove(verdict.orbit if wanted == "orbit" else verdict)
-    shown, level = verdict.evidence.shown, verdict.evidence.level
+        statement = f"{verdict.evidence.statement} Only a periodic response is proved in ball arithmetic."
+        return evolve(verdict, evidence=evolve(verdict.evidence, statement=statement))
+    proof = prove(verdict.orbit if requested == "orbit" else verdict)
+    statement, level = verdict.evidence.statement, verdict.evidence.level
     if proof.starts:
-        shown, level = shown.replace(f"Evidence: {level}", "Evidence: proved"), "proved"
-    evidence = evolve(verdict.evidence, level=level, shown=f"{shown} In ball arithmetic, {proof}.")
+        statement, level = statement.replace(f"Evidence: {level}", "Evidence: proved"), "proved"
+    evidence = evolve(verdict.evidence, level=level, statement=f"{statement} In ball arithmetic, {proof}.")
     return evolve(verdict, evidence=evidence, orbit=evolve(verdict.orbit, proof=proof))
 
 

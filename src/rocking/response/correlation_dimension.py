@@ -156,12 +156,12 @@ def scaling_region(radii: Array, counts: Array, pairs: Array) -> Scaling | None:
     y = np.log(counts.sum(axis=0) / pairs.sum(axis=0))
     # jackknife: each row omits one block
     fits = _Fits(x, np.vstack([y, np.log((counts.sum(axis=0) - counts) / (pairs.sum(axis=0) - pairs))]))
-    first, last, found = _longest(fits)
+    first, last, result = _longest(fits)
     low, high = fits.interval(first, last)
     local = [fits.slope(k, k + 1) for k in range(len(x) - 1)]
     return Scaling(
         region=(first, last),
-        found=found,
+        found=result,
         slope=fits.slope(first, last)[0],
         interval=(max(low, 0.0), high),
         sums=np.exp(y),

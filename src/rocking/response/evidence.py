@@ -33,7 +33,7 @@ class Case:
 
 
 @frozen
-class Shown:
+class Statement:
     """Finding, and level of its evidence with the number of cycles or a remedy."""
 
     what: str
@@ -44,27 +44,32 @@ class Shown:
 def evidence_of(case: Case) -> Evidence:
     """Return the evidence in words."""
     criterion = Criterion(case.judgement.ground)
-    shown = SHOWN[criterion](case)
+    statement = STATEMENTS[criterion](case)
     return Evidence(
-        criterion.level, f"{shown.what}. Evidence: {shown.remark}.", shown.tolerances, case.judgement.cycles
+        criterion.level,
+        f"{statement.what}. Evidence: {statement.remark}.",
+        statement.tolerances,
+        case.judgement.cycles,
     )
 
 
-def _no_return(case: Case) -> Shown:
+def _no_return(case: Case) -> Statement:
     overturning = None if case.motion is None else case.motion.overturning
     undone = "the growing part of the motion cannot be reversed"
     if overturning is None:
-        return Shown(f"overturning is certain, because {undone}", f"exact, within {spent(case)}; {OTHERWISE}")
+        return Statement(
+            f"overturning is certain, because {undone}", f"exact, within {spent(case)}; {OTHERWISE}"
+        )
     when = f"after {counted(overturning.impacts, 'impact')}" if overturning.impacts else "without an impact"
-    return Shown(
+    return Statement(
         f"overturning is certain from τ = {overturning.time:.6g}, {when}, because {undone}",
         f"exact, within {spent(case)}",
     )
 
 
-def _still_for_ever(case: Case) -> Shown:
+def _still_for_ever(case: Case) -> Statement:
     if case.motion is None:
-        return Shown(
+        return Statement(
             "the block remains at rest or in contact with a brace",
             f"exact, within {spent(case)}; {OTHERWISE}",
         )
@@ -78,10 +83,10 @@ def _still_for_ever(case: Case) -> Shown:
     else:
         what = f"the block remains at rest, because A = {amplitude:.6g} ≤ {case.system.lift_off:.6g} cannot lift it off"
     moved = case.motion.impacts + case.motion.brace_hits > 0
-    return Shown(what, f"exact, within {spent(case)}" if moved else "exact, from the initial state on")
+    return Statement(what, f"exact, within {spent(case)}" if moved else "exact, from the initial state on")
 
 
-def _reset(case: Case) -> Shown:
+def _reset(case: Case) -> Statement:
     judged = case.judgement
     which = "release from a brace" if judged.angle else "lift-off from rest"
     interval = counted(judged.period, "half cycle") if judged.symmetric else counted(judged.period, "cycle")
@@ -89,10 +94,10 @@ def _reset(case: Case) -> Shown:
         f"superstable {_periodic(judged)}: every {which} has the same state{', on alternating sides' * judged.symmetric}; "
         f"successive ones are {interval} of the forcing apart, and perturbations grew less than {MAX_GROWTH}-fold in between"
     )
-    return Shown(what, f"verified, {_when(case)}", {"growth": float(MAX_GROWTH)})
+    return Statement(what, f"verified, {_when(case)}", {"growth": float(MAX_GROWTH)})
 
 
-def _orbit(case: Case) -> Shown:
+def _orbit(case: Case) -> Statement:
     judged = case.judgement
     if judged.distance <= periodicity.ROUNDING:
         reached = f"the motion lies on the orbit to within {periodicity.ROUNDING:.0e}"
@@ -112,10 +117,10 @@ def _orbit(case: Case) -> Shown:
         "distance": periodicity.ROUNDING,
         "second order": 1.0,
     }
-    return Shown(what, f"verified, {_when(case)}", tolerances)
+    return Statement(what, f"verified, {_when(case)}", tolerances)
 
 
-def _neutral_orbit(case: Case) -> Shown:
+def _neutral_orbit(case: Case) -> Statement:
     what = (
         f"neutrally stable {_periodic(case.judgement)}: no event dissipates energy; the motion returns to within "
         f"{decision_cascade.UNMOVED:.0e} of an earlier state, and its averages over both halves of the run agree to "
@@ -126,10 +131,10 @@ def _neutral_orbit(case: Case) -> Shown:
         "distance": decision_cascade.UNMOVED,
         "digits": quasi_periodicity.ENOUGH_DIGITS,
     }
-    return Shown(what, f"verified, {_when(case)}", tolerances)
+    return Statement(what, f"verified, {_when(case)}", tolerances)
 
 
-def _torus(case: Case) -> Shown:
+def _torus(case: Case) -> Statement:
     what = (
         f"motion on an invariant torus: no event dissipates energy; averages over both halves of the run agree to "
         f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more for the times between impacts and to "
@@ -143,100 +148,102 @@ def _torus(case: Case) -> Shown:
         f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
     }
     remark = f"statistical, over {spent(case)}; a motion that stays near a torus for long may leave it later"
-    return Shown(what, remark, tolerances)
+    return Statement(what, remark, tolerances)
 
 
-def _exponent(case: Case) -> Shown:
+def _exponent(case: Case) -> Statement:
     judged = case.judgement
     what = (
         f"largest Lyapunov exponent {plus_minus(judged.exponent, judged.error)} per τ, "
         f"{judged.exponent / judged.error:.0f} standard errors above zero"
     )
     remark = f"statistical, over {spent(case)}; a longer run may show that the chaos is transient"
-    return Shown(what, remark, {"standard errors": kernel.CLEARLY})
+    return Statement(what, remark, {"standard errors": kernel.CLEARLY})
 
 
-def _little_growth(case: Case) -> Shown:
+def _little_growth(case: Case) -> Statement:
     grown = case.judgement.exponent * _measured_time(case)
     what = (
         f"{_seems_chaotic(case)}, but over the second half of the run perturbations grew only by a factor of e^{grown:.3g}, "
         "as they also do while a motion leaves an unstable orbit"
     )
-    return Shown(what, _longer(case), {"log growth": kernel.FAR})
+    return Statement(what, _longer(case), {"log growth": kernel.FAR})
 
 
-def _correlated(case: Case) -> Shown:
+def _correlated(case: Case) -> Statement:
     what = (
         f"{_seems_chaotic(case)}, but the {workspace.BATCHES} batches behind this error are correlated: merging them in fours "
         f"increases its variance more than {kernel.MAX_CORRELATION:.0f}-fold"
     )
-    return Shown(what, _longer(case), {"correlation": kernel.MAX_CORRELATION})
+    return Statement(what, _longer(case), {"correlation": kernel.MAX_CORRELATION})
 
 
-def _lingering(case: Case) -> Shown:
+def _lingering(case: Case) -> Statement:
     what = (
         f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {decision_cascade.NEAR:.0e} of an unstable "
         "orbit"
     )
-    return Shown(what, f"{_longer(case)} or change the initial state", {"distance": decision_cascade.NEAR})
+    return Statement(
+        what, f"{_longer(case)} or change the initial state", {"distance": decision_cascade.NEAR}
+    )
 
 
-def _unresolved_reset(case: Case) -> Shown:
+def _unresolved_reset(case: Case) -> Statement:
     what = (
         f"the block repeatedly comes to rest or into sustained contact with a brace, but perturbations grow more than "
         f"{MAX_GROWTH}-fold between two releases, so that its period cannot be resolved in double precision"
     )
-    return Shown(
+    return Statement(
         what, f"none, after {spent(case)}; a longer run does not help, try slightly different parameters"
     )
 
 
-def _unwatched(case: Case) -> Shown:
+def _unwatched(case: Case) -> Statement:
     needed = kernel.CHAOS_NEEDS if case.system.braces is None else kernel.CHAOS_NEEDS_WITH_BRACES
-    return Shown(
+    return Statement(
         f"{_no_orbit(case)}, and {spent(case)} are too few to call the response chaotic",
         f"none, after {spent(case)}; increase max_cycles to {needed:,} or more",
     )
 
 
-def _indistinct(case: Case) -> Shown:
+def _indistinct(case: Case) -> Statement:
     judged, longer = case.judgement, _longer(case)
     if not 0.0 < judged.error < math.inf:
-        return Shown(
+        return Statement(
             f"{_no_orbit(case)}, and the largest Lyapunov exponent has no reliable error estimate", longer
         )
-    found = f"{_no_orbit(case)}, and the largest Lyapunov exponent, {plus_minus(judged.exponent, judged.error)} per τ, is"
+    result = f"{_no_orbit(case)}, and the largest Lyapunov exponent, {plus_minus(judged.exponent, judged.error)} per τ, is"
     if judged.exponent < -kernel.CLEARLY * judged.error:
         longer = f"none, after {spent(case)}; increase max_period above {case.max_period} or max_cycles above {case.max_cycles:,}"
-        return Shown(f"{found} negative", longer)
-    return Shown(f"{found} less than {kernel.CLEARLY:.0f} standard errors above zero", longer)
+        return Statement(f"{result} negative", longer)
+    return Statement(f"{result} less than {kernel.CLEARLY:.0f} standard errors above zero", longer)
 
 
-def _between(case: Case) -> Shown:
+def _between(case: Case) -> Statement:
     what = (
         f"no event dissipates energy, and averages over both halves of the run agree to {case.judgement.digits:.1f} digits: more "
         f"than in chaotic motion (below {quasi_periodicity.CHAOTIC_DIGITS:.0f}), but not all conditions for a torus are met"
     )
-    return Shown(what, _longer(case))
+    return Statement(what, _longer(case))
 
 
-def _crowded(case: Case) -> Shown:
+def _crowded(case: Case) -> Statement:
     what = f"more than {leg.MAX_EVENTS_A_CYCLE} impacts per cycle (chattering with little energy loss); simulation stopped"
-    return Shown(
+    return Statement(
         what,
         f"none, after {spent(case)}; increase the initial speed or reduce the coefficient of restitution",
     )
 
 
-def _standing(case: Case) -> Shown:
+def _standing(case: Case) -> Statement:
     what = (
         f"the motion remains on an unstable orbit; it returns to within {decision_cascade.UNMOVED:.0e} of an earlier state, "
         f"and perturbations grow at a rate of {case.judgement.exponent:.4g} per τ"
     )
-    return Shown(what, f"none, after {spent(case)}; change the initial state slightly")
+    return Statement(what, f"none, after {spent(case)}; change the initial state slightly")
 
 
-SHOWN: dict[Criterion, Callable[[Case], Shown]] = {
+STATEMENTS: dict[Criterion, Callable[[Case], Statement]] = {
     Criterion.NO_RETURN: _no_return,
     Criterion.STILL_FOR_EVER: _still_for_ever,
     Criterion.RESET: _reset,

@@ -88,8 +88,8 @@ def impact_section(
 
 def _impacts(events: np.ndarray, transient: int) -> np.ndarray:
     """Return the impacts at Θ = 0 among the events after a transient."""
-    found = events[(events["kind"] == "impact") & (events["cycle"] >= transient)]
-    impacts = np.empty(len(found), IMPACT)
+    result = events[(events["kind"] == "impact") & (events["cycle"] >= transient)]
+    impacts = np.empty(len(result), IMPACT)
     for name in IMPACT.names or ():
-        impacts[name] = found[name]
+        impacts[name] = result[name]
     return impacts

@@ -261,7 +261,7 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
 def rotation_of(motion: Motion, section: str, phases: Array, speeds: Array) -> RotationNumber:
     """Return the rotation numbers of a motion from its impacts, as `strikes_of` gives them; errors as of `rotation_number`."""
     mean, digits = average(flights_of(motion, section))
-    found = RotationNumber(
+    result = RotationNumber(
         system=motion.system,
         start=motion.start,
         cycles=motion.cycles,
@@ -272,12 +272,12 @@ def rotation_of(motion: Motion, section: str, phases: Array, speeds: Array) -> R
         free=1.0 / mean,
         digits=digits,
     )
-    _check(found)
-    fraction = fraction_of(found.per_cycle, digits)
+    _check(result)
+    fraction = fraction_of(result.per_cycle, digits)
     if fraction is None:
-        return found
+        return result
     locked = evolve(
-        found, locked=(fraction.numerator, fraction.denominator), period=fraction.denominator, free=None
+        result, locked=(fraction.numerator, fraction.denominator), period=fraction.denominator, free=None
     )
     return _about_the_centre(locked, phases, speeds)
 
@@ -328,41 +328,41 @@ def flights_of(motion: Motion, section: str) -> Array:
     return parts + np.round(np.diff(strikes["time"]) / motion.system.periodic.period - parts)
 
 
-def _check(found: RotationNumber) -> None:
-    if found.digits >= REGULAR_DIGITS:
+def _check(result: RotationNumber) -> None:
+    if result.digits >= REGULAR_DIGITS:
         return
-    why = "the motion is chaotic, or cycles too few" if found.digits < CHAOTIC_DIGITS else "increase cycles"
+    why = "the motion is chaotic, or cycles too few" if result.digits < CHAOTIC_DIGITS else "increase cycles"
     raise TooShort(
-        f"both halves of {found.cycles} cycles agree to {found.digits} digits, but a rotation number requires "
+        f"both halves of {result.cycles} cycles agree to {result.digits} digits, but a rotation number requires "
         f"{REGULAR_DIGITS} ({why})",
-        found,
+        result,
     )
 
 
 def _about_the_centre(locked: RotationNumber, phases: Array, speeds: Array) -> RotationNumber:
     """Measure the rotation of every p-th impact about its mean; if it is a fraction, about the centres of smaller islands."""
     assert locked.locked is not None
-    found, stride = locked, locked.locked[0]
+    result, stride = locked, locked.locked[0]
     for _ in range(ISLANDS_WITHIN):
         points = deviations(phases[::stride], speeds[::stride])
         if points is None:
-            return found
+            return result
         if len(points) < MIN_TURNS:
             raise TooShort(
-                f"{found.cycles} cycles are {len(points)} periods of the island, too few for a rotation number (increase cycles)",
-                found,
+                f"{result.cycles} cycles are {len(points)} periods of the island, too few for a rotation number (increase cycles)",
+                result,
             )
         mean, digits, pieces = turning_of(points)
         if mean is None:
             each = "each" if stride == 1 else f"every {ordinal(stride)}"
             raise ValueError(
-                f"start must lie on a curve that surrounds its own mean; {each} of the {found.section}, {stride} in "
-                f"{counted(found.period, 'cycle')}, does not (the motion is chaotic, or its curve is strongly bent: change start)"
+                f"start must lie on a curve that surrounds its own mean; {each} of the {result.section}, {stride} in "
+                f"{counted(result.period, 'cycle')}, does not (the motion is chaotic, or its curve is strongly bent: change start)"
             )
-        turning = evolve(found, free=mean, digits=min(found.digits, digits))
+        turning = evolve(result, free=mean, digits=min(result.digits, digits))
         _check(turning)
         if pieces == 1:
             return turning
         stride *= pieces
-        found = evolve(turning, free=None, period=found.period * pieces)
-    return found
+        result = evolve(turning, free=None, period=result.period * pieces)
+    return result

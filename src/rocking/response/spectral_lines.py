@@ -50,18 +50,18 @@ def combination(line: float, parts: int, rotation: float | None, resolution: flo
     would cover more than a tenth of all frequencies: more combinations would fit any line.
     """
     most = min(MAX_ROTATIONS, int((CHANCE_OF_A_NAME / (2 * resolution * parts) - 1) / 2)) if rotation else 0
-    found = None
+    result = None
     for turns in sorted(range(-most, most + 1), key=abs):
-        if found is not None and abs(turns) > 2 * abs(found.rotation) + 1:
+        if result is not None and abs(turns) > 2 * abs(result.rotation) + 1:
             break
         remainder = line - turns * (rotation or 0.0)
         nearest = Fraction(round(remainder * parts), parts)
         if abs(remainder - float(nearest)) > resolution:
             continue
-        if found is not None:
+        if result is not None:
             return None
-        found = Combination(nearest, turns, remainder - float(nearest))
-    return found
+        result = Combination(nearest, turns, remainder - float(nearest))
+    return result
 
 
 def parts_and_rotation(

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-SHOWN = 16
+MAX_SHOWN = 16
 SHARE_OF_LINES = 0.9
 
 
@@ -156,7 +156,7 @@ class SpectralDensity(ReadOnlyArrays, Result):
         line at a fraction x of the sampling rate by up to (πx/sin πx)² − 1 of its amplitude. This is 1.3 % at a sixteenth,
         and a sixteenth of that at a quarter of this frequency.
         """
-        return self.samples / SHOWN / self.system.periodic.period
+        return self.samples / MAX_SHOWN / self.system.periodic.period
 
     @property
     def line_share(self) -> float:
@@ -442,7 +442,7 @@ def spectral_density(
         segment,
         taper,
         taper.independent(segments, (segment - shared) * samples),
-        samples / SHOWN,
+        samples / MAX_SHOWN,
         repeats,
     )
     parts, rotation = _parts_and_rotation(lines, values.var(), period or repeats, rotation, 1 / cycles)
@@ -528,15 +528,15 @@ def _parts_and_rotation(
 
 
 def _peak(line: Line, parts: int, rotation: float | None, resolution: float, unit: float) -> Peak:
-    found = combination(line.frequency, parts, rotation, resolution)
+    result = combination(line.frequency, parts, rotation, resolution)
     return Peak(
         frequency=line.frequency / unit,
         height=line.height * unit,
         amplitude=line.amplitude,
-        name=found.name if found else "",
-        forcing_multiple=found.forcing if found else None,
-        rotation_multiple=found.rotation if found else None,
-        offset=found.offset / unit if found else None,
+        name=result.name if result else "",
+        forcing_multiple=result.forcing if result else None,
+        rotation_multiple=result.rotation if result else None,
+        offset=result.offset / unit if result else None,
     )
 
 

@@ -150,7 +150,7 @@ def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.nda
         members = np.flatnonzero(classes == number)
         if members.size < 2 or np.isnan(anchors[members]).any():
             continue
-        pairs.append(members[alike(anchors[members], anchors[members])])
+        pairs.append(members[pairs_of_equal_states(anchors[members], anchors[members])])
         period = int(distinct[members[0], 1])
         # a class of thousands of orbits lies near a torus and is no list of attractors
         if period > 1 and members.size <= 1000:
@@ -163,16 +163,16 @@ def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.nda
 def _shared(system: System, members: np.ndarray, anchors: np.ndarray, period: int) -> np.ndarray:
     """Return pairs of orbits of one period in which the representative state of one is a state of the other."""
     states = np.concatenate([section_of(system, anchors[each], period) for each in members])
-    rows, others = alike(states, anchors[members]).T
+    rows, others = pairs_of_equal_states(states, anchors[members]).T
     return np.column_stack([np.repeat(members, period)[rows], members[others]])
 
 
-def alike(states: np.ndarray, others: np.ndarray) -> np.ndarray:
+def pairs_of_equal_states(states: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Return pairs (m, 2) of rows of `states` (n, 2) and `others` (k, 2) at a distance of at most SAME."""
     from scipy.spatial import cKDTree
 
     near = cKDTree(states).query_ball_point(others, SAME)
-    counts = [len(found) for found in near]
+    counts = [len(result) for result in near]
     rows = np.concatenate([np.empty(0, int), *near]).astype(int)
     return np.column_stack([rows, np.repeat(np.arange(len(others)), counts)])
 

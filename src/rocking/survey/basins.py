@@ -124,8 +124,8 @@ def basin_map(
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=3.5, period=1.0), restitution=0.8)
     >>> starts = np.linspace(-1, 1, 41)
-    >>> found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0)
-    >>> [each.name for each in found.attractors]
+    >>> result = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0)
+    >>> [each.name for each in result.attractors]
     ['period 1, symmetric', 'overturned', 'period 3, symmetric']
     """
     instance("system", system, System)
@@ -137,7 +137,7 @@ def basin_map(
     if samples is None:
         axes = {"angle": angle, "velocity": velocity}
         spec = harmonic_spec(by_period(system), axes, 2, "a basin map")
-        found = run_survey(spec, measure, store, executor, progress=progress, repair=repair).load()
+        data = run_survey(spec, measure, store, executor, progress=progress, repair=repair).load()
         ends = {name: (values[0], values[-1]) for name, values in spec.axes.items()}
         starts = grid_starts(spec)
     else:
@@ -147,15 +147,15 @@ def basin_map(
         reach = ANGLE.range[1] if system.braces is None else system.braces.angle
         check_between(max(ends["angle"], key=abs), reach)
         starts = random.uniform(*_corners(ends), (whole("samples", samples, 1, MAX_SAMPLES), 2))
-        shown = "initial states" if instance("progress", progress, bool) else ""
-        answers = sampled(points_of(system, starts), measure, executor, shown)
-        found = _random_dataset(system, starts, measure, answers).assign_attrs(seed=seed)
-    labels, first = label_attractors(system, {str(name): found[name].values for name in found.data_vars})
+        title = "initial states" if instance("progress", progress, bool) else ""
+        answers = sampled(points_of(system, starts), measure, executor, title)
+        data = _random_dataset(system, starts, measure, answers).assign_attrs(seed=seed)
+    labels, first = label_attractors(system, {str(name): data[name].values for name in data.data_vars})
     attractors = make_attractors(system, starts, first, max_cycles, max_period)
-    _attach(found, labels, [each.name for each in attractors])
+    _attach(data, labels, [each.name for each in attractors])
     fractions = _fractions(np.bincount(labels), attractors)
     boundaries = Boundaries(system, *_corners(ends), random, measure, executor, progress)
-    return BasinMap(system, found, attractors, fractions, *boundaries.exponents(runs, width))
+    return BasinMap(system, data, attractors, fractions, *boundaries.exponents(runs, width))
 
 
 def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[Share, ...]:
@@ -194,7 +194,7 @@ def _random_dataset(system: System, starts: np.ndarray, measure: Measurement, an
     )
 
 
-def _attach(found: xr.Dataset, labels: np.ndarray, names: list[str]) -> None:
+def _attach(data: xr.Dataset, labels: np.ndarray, names: list[str]) -> None:
     """Add the variable `attractor`, the attractor of each initial state, to a dataset."""
     words = [name.replace(",", "").replace("(", "").replace(")", "").replace(" ", "-") for name in names]
     metadata = {
@@ -202,7 +202,7 @@ def _attach(found: xr.Dataset, labels: np.ndarray, names: list[str]) -> None:
         "flag_values": np.arange(len(names), dtype=np.int32),
         "flag_meanings": " ".join(words),
     }
-    found["attractor"] = (found.kind.dims, labels.reshape(found.kind.shape).astype(np.int32), metadata)
+    data["attractor"] = (data.kind.dims, labels.reshape(data.kind.shape).astype(np.int32), metadata)
 
 
 SAFE_BASIN = "Safe basin of a free-standing block on a shaking base"
@@ -274,8 +274,8 @@ def safe_basin(
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=3.5, period=1.0), restitution=0.8)
-    >>> found = rk.safe_basin(system, amplitude=[3.3, 3.7, 5.5], samples=500)
-    >>> found.dataset.safe.dims, round(found.heteroclinic_amplitude, 4)
+    >>> result = rk.safe_basin(system, amplitude=[3.3, 3.7, 5.5], samples=500)
+    >>> result.dataset.safe.dims, round(result.heteroclinic_amplitude, 4)
     (('amplitude',), 3.6878)
     """
     measure = outcome(max_cycles, max_period, SAFE_BASIN)

@@ -94,7 +94,7 @@ def endings_of_runs(runs: Runs, options: Mapping[str, int], stop: np.ndarray) ->
     rows, inputs = np.empty(runs.record.size, ends.ENDING_ROW), np.empty(runs.record.size, kernel.RUN_ROW)
     inputs["restitution"], inputs["angle"] = runs.restitution, runs.angle
     inputs["critical_angle"] = runs.slenderness
-    for part in alike(runs):
+    for part in runs_of_equal_tables(runs):
         motion, alpha = (
             runs.motions[int(runs.record[part.start])],
             float(runs.frequency_parameter[part.start]),
@@ -115,7 +115,7 @@ def sampled(base: PiecewiseLinear, *, full: bool) -> numbers.AnySampledParameter
     return numbers.sampled_parameters(tables, 1.0, length, 1.0)
 
 
-def alike(runs: Runs) -> Iterator[slice]:
+def runs_of_equal_tables(runs: Runs) -> Iterator[slice]:
     """Yield the stretches of neighbouring points that share the tables of a record."""
     if not runs.record.size:
         return
@@ -213,8 +213,14 @@ class BlockEndings:
         self.scale = scale
         self.pulse = base if isinstance(base, Pulse) and base.cosine is not None else None
         motion = base if isinstance(base, GroundMotion) else _samples(base)
-        given = {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "level": scale}
-        self.spec = motion_spec(RecordSet(motion), given, intensity="scale", model=model)
+        values = {
+            "size": [1.0, 2.0],
+            "slenderness": [0.1, 0.2],
+            "angle": 0.0,
+            "polarity": 1.0,
+            "level": scale,
+        }
+        self.spec = motion_spec(RecordSet(motion), values, intensity="scale", model=model)
 
     def at(self, size: np.ndarray, slenderness: np.ndarray, stop: np.ndarray) -> Arrays | None:
         """Return outcome, certified, peak, margin and impacts at n points; None if another thread sets `stop` (1,).

@@ -16,34 +16,34 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def tables(found: xr.Dataset, block: Block | None = None) -> Iterator[Table]:
+def tables(data: xr.Dataset, block: Block | None = None) -> Iterator[Table]:
     """Yield the principal table of the dataset in parts; with a block in SI units."""
-    for part in parts(found):
+    for part in parts(data):
         yield next(iter(tables_of(part, {}, block).values()))
 
 
-def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
+def to_netcdf(data: xr.Dataset, path: str | os.PathLike[str]) -> None:
     """Write a dataset of any size to a netCDF file, completely or not at all."""
     target = check_writable("path", path, (".nc",))
     import h5netcdf
 
     with replacing_hdf5(target) as opened, h5netcdf.File(opened, "w") as file:
-        file.dimensions = {str(name): size for name, size in found.sizes.items()}
-        file.attrs.update(_plain(found.attrs))
-        for name, variable in found.variables.items():
+        file.dimensions = {str(name): size for name, size in data.sizes.items()}
+        file.attrs.update(_plain(data.attrs))
+        for name, variable in data.variables.items():
             made = file.create_variable(str(name), variable.dims, variable.dtype, fillvalue=None)
             made.attrs.update(_plain(variable.attrs, variable.dtype))
             beside = [
                 str(each)
-                for each in found.coords
-                if each not in found.dims and set(found[each].dims) <= set(variable.dims)
+                for each in data.coords
+                if each not in data.dims and set(data[each].dims) <= set(variable.dims)
             ]
-            if name in found.data_vars and beside:
+            if name in data.data_vars and beside:
                 made.attrs["coordinates"] = " ".join(beside)
-            if name in found.coords:
+            if name in data.coords:
                 made[:] = variable.values
         begin = 0
-        for part in parts(found):
+        for part in parts(data):
             first = next(iter(part.data_vars.values())).dims[0]
             end = begin + part.sizes[first]
             for name in part.data_vars:

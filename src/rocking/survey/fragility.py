@@ -133,10 +133,10 @@ def fragility(
     >>> import numpy as np
     >>> import rocking as rk
     >>> records = rk.synthetic_ground_motions(12, seed=1)
-    >>> found = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 9), limits=0.5)
-    >>> found.dataset.limit.values.tolist(), found.dataset.fraction.shape
+    >>> result = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 9), limits=0.5)
+    >>> result.dataset.limit.values.tolist(), result.dataset.fraction.shape
     ([0.5, inf], (2, 9))
-    >>> fit = found.fit()
+    >>> fit = result.fit()
     >>> fit.median_low < fit.median < fit.median_high
     True
     """
@@ -166,22 +166,22 @@ def fragility(
     spec = block_spec(chosen, block, levels, intensity, model=model, one_level=True)
     if any(spreads.values()):
         spec = _uncertain(spec, chosen, block, count, spreads, seed)
-    found = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
-    runs = of_block(found, spec, chosen, block).assign_attrs(replicates=replicates, seed=seed)
+    data = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
+    runs = of_block(data, spec, chosen, block).assign_attrs(replicates=replicates, seed=seed)
     weights = two_level_weights(len(chosen), count, replicates, np.random.default_rng(seed))
     return _estimated(runs.load(), thresholds, weights, np.argsort(marks), block)
 
 
 def _limits(values: Any) -> np.ndarray:
-    found = np.atleast_1d(reals("limits", values))
+    numbers = np.atleast_1d(reals("limits", values))
     allowed = f"hold numbers in (0, {MAX_LIMIT:g}], ascending"
     if (
-        found.ndim != 1
-        or not ((found > 0.0) & (found <= MAX_LIMIT)).all()
-        or not (np.diff(found) > 0.0).all()
+        numbers.ndim != 1
+        or not ((numbers > 0.0) & (numbers <= MAX_LIMIT)).all()
+        or not (np.diff(numbers) > 0.0).all()
     ):
         raise Refusal("limits", allowed, values, "overturning follows by itself")
-    return found
+    return numbers
 
 
 def _uncertain(

@@ -166,13 +166,13 @@ def lognormal_fits(levels: np.ndarray, exceeding: np.ndarray, rocking: np.ndarra
     least = np.select([kind == SEPARATED, kind == ALL_BELOW], [levels[highest_below]] * 2, 0.0)
     most = np.select([kind == SEPARATED, kind == ALL_ABOVE], [levels[lowest_above]] * 2, np.inf)
     widest = np.where(kind == SEPARATED, 0.0, np.inf)
-    found = kind == DETERMINED
+    determined = kind == DETERMINED
     return Fits(
         kind,
         median,
         dispersion,
-        (np.where(found, median, least), np.where(found, median, most)),
-        (np.where(found, dispersion, 0.0), np.where(found, dispersion, widest)),
+        (np.where(determined, median, least), np.where(determined, median, most)),
+        (np.where(determined, dispersion, 0.0), np.where(determined, dispersion, widest)),
     )
 
 
@@ -180,40 +180,40 @@ def _maximum(
     places: np.ndarray, exceeding: np.ndarray, remaining: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return a and b of the maxima by Newton's method, with steps halved until the likelihood does not fall."""
-    found = np.zeros((2, len(exceeding)))
-    value = _likelihood(found, places, exceeding, remaining)
+    coefficients = np.zeros((2, len(exceeding)))
+    value = _likelihood(coefficients, places, exceeding, remaining)
     for _ in range(MAX_STEPS):
-        step = _newton(found, places, exceeding, remaining)
+        step = _newton(coefficients, places, exceeding, remaining)
         length = np.ones(step.shape[1])
         for _ in range(HALVINGS):
-            tried = _likelihood(found + length * step, places, exceeding, remaining)
+            tried = _likelihood(coefficients + length * step, places, exceeding, remaining)
             worse = tried < value - 1e-12 * np.abs(value)
             if not worse.any():
                 break
             length[worse] *= 0.5
-        found += length * step
+        coefficients += length * step
         value = tried
         if np.abs(length * step).max() < CLOSE:
             break
-    return found[0], found[1]
+    return coefficients[0], coefficients[1]
 
 
 def _likelihood(
-    found: np.ndarray, places: np.ndarray, exceeding: np.ndarray, remaining: np.ndarray
+    values: np.ndarray, places: np.ndarray, exceeding: np.ndarray, remaining: np.ndarray
 ) -> np.ndarray:
     from scipy.special import log_ndtr
 
-    score = found[0][:, None] + found[1][:, None] * places
+    score = values[0][:, None] + values[1][:, None] * places
     return np.asarray((exceeding * log_ndtr(score) + remaining * log_ndtr(-score)).sum(axis=1))
 
 
 def _newton(
-    found: np.ndarray, places: np.ndarray, exceeding: np.ndarray, remaining: np.ndarray
+    values: np.ndarray, places: np.ndarray, exceeding: np.ndarray, remaining: np.ndarray
 ) -> np.ndarray:
     """Return the steps of Newton's method (2, n)."""
     from scipy.special import log_ndtr
 
-    score = found[0][:, None] + found[1][:, None] * places
+    score = values[0][:, None] + values[1][:, None] * places
     density = -0.5 * score * score - 0.5 * np.log(2.0 * np.pi)
     up, down = np.exp(density - log_ndtr(score)), np.exp(density - log_ndtr(-score))
     slope = exceeding * up - remaining * down
@@ -264,10 +264,10 @@ def _band(
     """Return the percentiles of the curves of all replicates at each level."""
     from scipy.special import ndtr
 
-    found, falling = (many.kind[:, None] == kind for kind in (DETERMINED, DECREASING))
+    determined, falling = (many.kind[:, None] == kind for kind in (DETERMINED, DECREASING))
     scores = np.log(levels / many.median[:, None]) / many.dispersion[:, None]
     # the limit of the fit is the fraction itself, where no maximum is finite
-    curves = np.where(found, rocking * ndtr(scores), exceeding)
+    curves = np.where(determined, rocking * ndtr(scores), exceeding)
     return (
         np.quantile(np.where(falling, 0.0, curves), tails[0], axis=0),
         np.quantile(np.where(falling, rocking, curves), tails[1], axis=0),

@@ -88,14 +88,14 @@ def incremental_dynamic_analysis(
     >>> import numpy as np
     >>> import rocking as rk
     >>> records = rk.synthetic_ground_motions(6, seed=1)
-    >>> found = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), np.linspace(0.5, 3, 6))
-    >>> found.dataset.peak.dims, found.fractiles().dims
+    >>> result = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), np.linspace(0.5, 3, 6))
+    >>> result.dataset.peak.dims, result.fractiles().dims
     (('record', 'level'), ('fractile', 'level'))
     """
     chosen = record_set(records)
     spec = block_spec(chosen, block, levels, intensity, angle=angle, polarity=polarity, model=model)
-    found = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
-    return IncrementalDynamicAnalysis(of_block(found, spec, chosen, block), block)
+    data = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
+    return IncrementalDynamicAnalysis(of_block(data, spec, chosen, block), block)
 
 
 def block_spec(
@@ -139,19 +139,19 @@ def block_spec(
     )
 
 
-def of_block(found: xr.Dataset, spec: MotionSpec, records: RecordSet, block: Block) -> xr.Dataset:
+def of_block(data: xr.Dataset, spec: MotionSpec, records: RecordSet, block: Block) -> xr.Dataset:
     """Return a dataset that always has the dimensions `record` and `level`, with the names of the records and the block."""
-    if "record" not in found.dims:
-        found = found.expand_dims(record=1)
-    if "level" not in found.dims:
-        level = "level", [found.attrs["level"]], spec.coordinate("level")
-        kept = {name: value for name, value in found.attrs.items() if name != "level"}
-        found = found.expand_dims(level=1, axis=-1).assign_coords(level=level)
-        found.attrs = kept
-    return with_names(found, records).assign_attrs(block_attributes(block))
+    if "record" not in data.dims:
+        data = data.expand_dims(record=1)
+    if "level" not in data.dims:
+        level = "level", [data.attrs["level"]], spec.coordinate("level")
+        kept = {name: value for name, value in data.attrs.items() if name != "level"}
+        data = data.expand_dims(level=1, axis=-1).assign_coords(level=level)
+        data.attrs = kept
+    return with_names(data, records).assign_attrs(block_attributes(block))
 
 
-def with_names(found: xr.Dataset, records: RecordSet) -> xr.Dataset:
+def with_names(data: xr.Dataset, records: RecordSet) -> xr.Dataset:
     """Return a dataset with the numbers of its records as integers, and their names."""
     number = "record", np.arange(len(records)), {"long_name": "number of the record, from 0"}
-    return found.assign_coords(record=number, name=("record", list(records.names), {"long_name": "record"}))
+    return data.assign_coords(record=number, name=("record", list(records.names), {"long_name": "record"}))

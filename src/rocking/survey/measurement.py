@@ -88,12 +88,12 @@ class Batch:
     options: dict[str, int]
 
 
-def batches(tile: Tile, spec: SurveySpec, wanted: np.ndarray, measure: Measurement) -> Iterator[Batch]:
+def batches(tile: Tile, spec: SurveySpec, requested: np.ndarray, measure: Measurement) -> Iterator[Batch]:
     """Split a tile into batches: strided, for load balance, or of neighbours, where these share some of the work."""
-    parts = -(-wanted.size // BATCH)
-    split = [wanted[part::parts] for part in range(parts)]
+    parts = -(-requested.size // BATCH)
+    split = [requested[part::parts] for part in range(parts)]
     if spec.contiguous:
-        split = np.array_split(wanted, parts)
+        split = np.array_split(requested, parts)
     inside = spec.with_axes(tile.axes())
     for part in split:
         yield Batch(inside, part, measure.function, measure.options)

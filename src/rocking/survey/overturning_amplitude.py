@@ -167,8 +167,8 @@ def overturning_amplitude(
     >>> import numpy as np
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.overturning_amplitude(system, period=[1.5, 2.0], amplitude=np.linspace(1, 4, 31), phases=2)
-    >>> found.dataset.lowest.dims, found.dataset.overturning_share.shape
+    >>> result = rk.overturning_amplitude(system, period=[1.5, 2.0], amplitude=np.linspace(1, 4, 31), phases=2)
+    >>> result.dataset.lowest.dims, result.dataset.overturning_share.shape
     (('period',), (2, 31))
     """
     count = whole("phases", phases, 1, MAX_PHASES)
@@ -188,8 +188,8 @@ def overturning_amplitude(
     }
     varied = sum(each is not None for each in axes.values())
     spec = harmonic_spec(fixed, axes, varied, "an overturning amplitude")
-    found = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
-    kinds = found.kind if count > 1 else found.kind.expand_dims(phase=turned)
+    data = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
+    kinds = data.kind if count > 1 else data.kind.expand_dims(phase=turned)
     over = [name for name in ("restitution", "critical_angle", "frequency", "period") if name in spec.axes]
     kinds = kinds.transpose(*over, "phase", "amplitude").load()
     scan = Scan(spec, measure, tuple(over), kinds)

@@ -126,8 +126,8 @@ def overturning_set(
     >>> import numpy as np
     >>> import rocking as rk
     >>> cabinet = rk.Block(height=2.0, width=0.5)
-    >>> found = rk.overturning_set(rk.example_ground_motion(), cabinet, np.linspace(1, 1.5, 101), intensity="pga-g")
-    >>> found.intervals().shape[1], bool(found.lowest[0] > 1)
+    >>> result = rk.overturning_set(rk.example_ground_motion(), cabinet, np.linspace(1, 1.5, 101), intensity="pga-g")
+    >>> result.intervals().shape[1], bool(result.lowest[0] > 1)
     (2, True)
     """
     chosen, block = record_set(records), instance("block", block, Block)
@@ -143,8 +143,8 @@ def overturning_set(
         Work(motion, measure, value, block, angle, float(polarity), full)
         for motion, value in zip(chosen, values.tolist(), strict=True)
     ]
-    shown = instance("progress", progress, bool)
-    with engine(executor) as (pool, stop), Bar(len(work), "records", shown=shown) as bar:
+    progress = instance("progress", progress, bool)
+    with engine(executor) as (pool, stop), Bar(len(work), "records", shown=progress) as bar:
         futures = [pool.submit(scan, each, levels, stop) for each in work]
         for future in futures:
             count_when_done(bar, future, 1)
@@ -207,12 +207,12 @@ def locate_switches(run: Runs, levels: np.ndarray, grid: Arrays) -> np.ndarray:
         above_sure[wide[upper & certain]] = middle[wide[upper & certain]]
         below_sure[wide[~upper & certain]] = middle[wide[~upper & certain]]
         mode[wide[overturned]] = tried["impacts_since_rest"][overturned]
-    found = np.empty(places.size, SWITCH_ROW)
-    found["record"] = 0
-    found["level"], found["overturns_above"], found["impacts_since_rest"] = high, above, mode
-    found["certified_below"], found["certified_above"] = below_sure, above_sure
-    found["certified"] = np.isfinite(below_sure) & np.isfinite(above_sure)
-    return found
+    values = np.empty(places.size, SWITCH_ROW)
+    values["record"] = 0
+    values["level"], values["overturns_above"], values["impacts_since_rest"] = high, above, mode
+    values["certified_below"], values["certified_above"] = below_sure, above_sure
+    values["certified"] = np.isfinite(below_sure) & np.isfinite(above_sure)
+    return values
 
 
 def _dataset(

@@ -102,8 +102,8 @@ def parametric_map(
     >>> import numpy as np
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.parametric_map(system, amplitude=np.linspace(0, 16, 9), period=np.linspace(0.2, 3, 8))
-    >>> found.dataset.kind.dims, found.dataset.attrs["restitution"]
+    >>> result = rk.parametric_map(system, amplitude=np.linspace(0, 16, 9), period=np.linspace(0.2, 3, 8))
+    >>> result.dataset.kind.dims, result.dataset.attrs["restitution"]
     (('amplitude', 'period'), 0.925)
     """
     spec = harmonic_spec(
@@ -124,5 +124,5 @@ def parametric_map(
         "a parametric map",
     )
     measure = response(max_cycles, max_period, "Parametric map of a free-standing block on a shaking base")
-    found = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
-    return ParametricMap(found, system=system)
+    data = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
+    return ParametricMap(data, system=system)

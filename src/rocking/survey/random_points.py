@@ -27,13 +27,13 @@ MAX_SEED = 2**32 - 1
 
 
 def sampled(
-    points: Points, measure: Measurement, executor: Executor | None = None, shown_as: str = ""
+    points: Points, measure: Measurement, executor: Executor | None = None, title: str = ""
 ) -> Arrays:
-    """Return the results of a measurement at points, in their order; with a progress bar if they are ``shown_as`` something."""
+    """Return the results of a measurement at points, in their order; with a progress bar if they are ``title`` something."""
     if executor is not None:
         instance("executor", executor, Executor)
     total = len(points.systems)
-    with engine(executor) as (pool, stop), Bar(total, shown_as, shown=bool(shown_as)) as bar:
+    with engine(executor) as (pool, stop), Bar(total, title, shown=bool(title)) as bar:
         futures = []
         try:
             for first in range(0, total, AT_ONCE):
@@ -124,12 +124,12 @@ class UncertainMotionSpec(MotionSpec):
     def inputs(self, values: Values) -> Runs:
         """Return the runs at n points."""
         count = next(iter(values.values())).size
-        given = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
-        record = given["record"].astype(int)
+        arguments = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
+        record = arguments["record"].astype(int)
         own = dict(
             zip(
                 ("size", "slenderness", "restitution"),
-                self.drawn[record, given["sample"].astype(int)].T,
+                self.drawn[record, arguments["sample"].astype(int)].T,
                 strict=True,
             )
         )
@@ -139,7 +139,7 @@ class UncertainMotionSpec(MotionSpec):
             self.fixed["slenderness"],
         )
         levels = np.array([self.intensities[number] for number in record.tolist()])
-        factor = self.measure.factor(given["level"], levels, *nominal) * given["polarity"]
+        factor = self.measure.factor(arguments["level"], levels, *nominal) * arguments["polarity"]
         return runs._replace(factor=factor / (GRAVITY * own["slenderness"]))
 
     def described(self) -> dict[str, Any]:
@@ -175,12 +175,12 @@ def _of_record(
     places = np.clip(places, 1e-9, 1.0 - 1e-9)
     height = block.height * np.exp(spreads[0] * ndtri(places[0]))
     width = block.width * np.exp(spreads[1] * ndtri(places[1]))
-    found = []
+    rows = []
     for number, deviation in enumerate((spreads[2] * (2.0 * places[2] - 1.0)).tolist()):
-        given = None if block.has_housner_restitution else block.restitution
-        each = Block(float(height[number]), float(width[number]), given, block.inertia_ratio)
-        found.append((each.radius, each.critical_angle, min(max(each.restitution + deviation, 0.0), 1.0)))
-    return np.array(found)
+        values = None if block.has_housner_restitution else block.restitution
+        each = Block(float(height[number]), float(width[number]), values, block.inertia_ratio)
+        rows.append((each.radius, each.critical_angle, min(max(each.restitution + deviation, 0.0), 1.0)))
+    return np.array(rows)
 
 
 def fingerprint(motion: GroundMotion) -> str:
@@ -201,8 +201,8 @@ def fingerprints(records: RecordSet) -> tuple[str, ...]:
         mark = fingerprint(motion)
         if mark in seen:
             allowed = "hold independent motions"
-            found = f"{name}, the same as {seen[mark]}"
+            result = f"{name}, the same as {seen[mark]}"
             remedy = "leave one out: a copy, scaled or reversed, says nothing new"
-            raise Refusal("records", allowed, found, remedy)
+            raise Refusal("records", allowed, result, remedy)
         seen[mark] = name
     return tuple(seen)

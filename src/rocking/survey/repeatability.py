@@ -213,10 +213,10 @@ def repeatability_map(
     >>> import numpy as np
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.repeatability_map(
+    >>> result = rk.repeatability_map(
     ...     system, amplitude=np.linspace(1, 13, 4), period=np.linspace(0.5, 2, 4), samples=4
     ... )
-    >>> found.uncertain.of, found.dataset.agreeing.dims
+    >>> result.uncertain.of, result.dataset.agreeing.dims
     (16, ('amplitude', 'period'))
     """
     spec = harmonic_spec(
@@ -242,16 +242,16 @@ def repeatability_map(
         "relative_millionths": off,
     }
     measure = Measurement(TITLE, agreement, VARIABLES, options, batch.METHOD)
-    found = run_survey(spec, measure, store, executor, progress=progress, repair=repair).load()
-    found.attrs["relative"] = off * MILLIONTH
+    data = run_survey(spec, measure, store, executor, progress=progress, repair=repair).load()
+    data.attrs["relative"] = off * MILLIONTH
     runs = {
-        name: np.rint(found[name].values * options["samples"]).astype(int)
+        name: np.rint(data[name].values * options["samples"]).astype(int)
         for name in ("agreeing", "overturned", "undetermined")
     }
     braced = "brace_angle" in spec.axes or "brace_angle" in spec.fixed
     may_fall = 0 * runs["undetermined"] if braced else runs["undetermined"]
     return RepeatabilityMap(
-        found,
+        data,
         _divided(runs["agreeing"], runs["undetermined"], options["samples"]),
         _divided(runs["overturned"], may_fall, options["samples"]),
         system=system,

@@ -18,7 +18,7 @@ from attrs import frozen
 from rocking.model.package import require_extra
 from rocking.model.progress import Bar
 from rocking.model.table import flags
-from rocking.model.text import counted, percent, shown_path
+from rocking.model.text import counted, formatted_path, percent
 from rocking.model.validation import Refusal, instance
 from rocking.survey.measurement import Arrays, Batch, Measurement, batches, compute
 from rocking.survey.memory import Memory, check_fits
@@ -123,9 +123,9 @@ class Watcher:
         self.meanings = flags(variable.attributes)
         self.counts = dict.fromkeys(self.meanings, 0)
 
-    def settled(self, found: np.ndarray, *, before: bool) -> None:
+    def settled(self, numbers: np.ndarray, *, before: bool) -> None:
         """Count the types of completed points; those of an earlier run count as points, too."""
-        values, counts = np.unique(found, return_counts=True)
+        values, counts = np.unique(numbers, return_counts=True)
         for value, count in zip(values.tolist(), counts.tolist(), strict=True):
             self.counts[value] += count
         total = max(sum(self.counts.values()), 1)
@@ -134,7 +134,7 @@ class Watcher:
         )
         self.bar.text = ", ".join(f"{meaning} {percent(count / total)}" for count, meaning in largest)
         if before:
-            self.bar.advance(found.size, before=True)
+            self.bar.advance(numbers.size, before=True)
 
 
 MAX_UNDER_WAY = 512
@@ -166,8 +166,8 @@ def run(results: Memory | Store, executor: Executor | None = None, watcher: Watc
                     continue
                 pending.append(_submit(pool, stop, results, tile, known))
                 if watcher is not None:
-                    for future, wanted in zip(pending[-1].futures, pending[-1].wanted, strict=True):
-                        count_when_done(watcher.bar, future, wanted.size)
+                    for future, requested in zip(pending[-1].futures, pending[-1].wanted, strict=True):
+                        count_when_done(watcher.bar, future, requested.size)
                 under_way += len(pending[-1].futures)
                 while under_way > MAX_UNDER_WAY:
                     under_way -= _settle(pending, results, watcher)
@@ -182,8 +182,8 @@ def _submit(
     pool: Executor, stop: np.ndarray, results: Memory | Store, tile: Tile, known: np.ndarray
 ) -> Pending:
     """Submit the points of a tile that neither an earlier run nor a coarser level has computed."""
-    wanted = np.flatnonzero(tile.own(~known)).astype(np.int32)
-    work = list(batches(tile, results.spec, wanted, results.measure))
+    requested = np.flatnonzero(tile.own(~known)).astype(np.int32)
+    work = list(batches(tile, results.spec, requested, results.measure))
     return Pending(
         tile, known, [each.wanted for each in work], [pool.submit(compute, each, stop) for each in work]
     )
@@ -197,15 +197,15 @@ def _settle(pending: deque[Pending], results: Memory | Store, watcher: Watcher |
     first = pending[0]
     wait(first.futures, return_when=FIRST_EXCEPTION)
     tile, shared = first.tile, first.tile.shared()
-    found = [future.result() for future in first.futures]
+    rows = [future.result() for future in first.futures]
     with defer_interrupt():
         answers = results.read(tile) if first.known.any() else results.measure.blank(tile.shape)
         if shared is not None:
             for name, values in results.coarser(tile).items():
                 answers[name][shared[0]] = values
-        for wanted, new in zip(first.wanted, found, strict=True):
+        for requested, new in zip(first.wanted, rows, strict=True):
             for name, values in new.items():
-                answers[name].reshape(-1)[wanted] = values
+                answers[name].reshape(-1)[requested] = values
         results.write(tile, answers)
     _tell(watcher, results, tile, answers, ~first.known, before=False)
     pending.popleft()
@@ -274,9 +274,12 @@ def run_survey(
 
     with opened(store, spec, measure, repair=repair) as kept:
         _carry_out(
-            kept, executor, progress, f"completed tiles are in {shown_path(store)}; run it again to resume"
+            kept,
+            executor,
+            progress,
+            f"completed tiles are in {formatted_path(store)}; run it again to resume",
         )
-    with _noted(f"The survey is complete in {shown_path(store)}; run it again to read the results."):
+    with _noted(f"The survey is complete in {formatted_path(store)}; run it again to read the results."):
         return kept.dataset()
 
 

@@ -94,8 +94,8 @@ def sensitivity(
     --------
     >>> import numpy as np
     >>> import rocking as rk
-    >>> found = rk.sensitivity(rk.synthetic_ground_motions(8, seed=1), rk.Block(2.0, 0.5), np.linspace(1, 3, 5))
-    >>> found.dataset.change.values.tolist()
+    >>> result = rk.sensitivity(rk.synthetic_ground_motions(8, seed=1), rk.Block(2.0, 0.5), np.linspace(1, 3, 5))
+    >>> result.dataset.change.values.tolist()
     ['amplitude + 1 %', 'amplitude − 1 %', 'start + ½ step', 'e + 0.02', 'e − 0.02']
     """
     chosen = record_set(records)
@@ -112,8 +112,8 @@ def sensitivity(
     runs: dict[str, xr.Dataset] = {}
     with Bar(CHANGES + 1, "changes", shown=instance("progress", progress, bool)) as bar:
         for name, changed in _changes(spec, chosen):
-            found = run_survey(changed, ending(TITLE, with_peak=False), None, executor)
-            runs[name] = of_block(found, changed, chosen, block).transpose("record", "level")
+            data = run_survey(changed, ending(TITLE, with_peak=False), None, executor)
+            runs[name] = of_block(data, changed, chosen, block).transpose("record", "level")
             bar.advance(1)
     return _summed_up(runs, order, random, block)
 

@@ -92,8 +92,8 @@ def chaos_share(
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.9)
-    >>> found = rk.chaos_share(system, restitution=[0.5, 0.9], samples=20)
-    >>> found.dataset.share.dims
+    >>> result = rk.chaos_share(system, restitution=[0.5, 0.9], samples=20)
+    >>> result.dataset.share.dims
     ('restitution', 'response')
     """
     measure = outcome(max_cycles, max_period, TITLE)
@@ -204,8 +204,8 @@ def proved_share(result: ParametricMap | Dataset, points: int = 300, seed: int =
     >>> import numpy as np
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> found = rk.parametric_map(system, amplitude=np.linspace(2, 6, 5), period=[0.5, 1.0])
-    >>> shares = rk.proved_share(found)
+    >>> result = rk.parametric_map(system, amplitude=np.linspace(2, 6, 5), period=[0.5, 1.0])
+    >>> shares = rk.proved_share(result)
     >>> shares.orbits.count == shares.orbits.of
     True
     """
@@ -213,20 +213,20 @@ def proved_share(result: ParametricMap | Dataset, points: int = 300, seed: int =
 
     points = whole("points", points, 1, MAX_POINTS)
     random = generator(seed)
-    found = result.dataset if isinstance(result, ParametricMap) else result
-    if not isinstance(found, Dataset) or "kind" not in found:
+    data = result.dataset if isinstance(result, ParametricMap) else result
+    if not isinstance(data, Dataset) or "kind" not in data:
         raise WrongType("result", "be a map of responses", result)
-    periodic = found["kind"] == Kind.PERIODIC.code
+    periodic = data["kind"] == Kind.PERIODIC.code
     places = np.argwhere(periodic.values)
     if not len(places):
         raise Refusal("result", "have periodic responses; the map has none")
     chosen = places[np.sort(random.choice(len(places), min(points, len(places)), replace=False))]
     orbits, starts, reasons = 0, 0, Counter[str]()
     for place in chosen:
-        system, start = _point(found, dict(zip(periodic.dims, place, strict=True)))
+        system, start = _point(data, dict(zip(periodic.dims, place, strict=True)))
         check_provable(system)
         verdict = classify(
-            system, start, int(found.attrs["max_cycles"]), int(found.attrs["max_period"]), prove=True
+            system, start, int(data.attrs["max_cycles"]), int(data.attrs["max_period"]), prove=True
         )
         proof = None if verdict.orbit is None else verdict.orbit.proof
         orbits += proof is not None and proof.proved
@@ -238,21 +238,21 @@ def proved_share(result: ParametricMap | Dataset, points: int = 300, seed: int =
     return ProvedShare(Share(orbits, len(chosen)), Share(starts, len(chosen)), dict(reasons.most_common()))
 
 
-def _point(found: Dataset, place: dict[Any, int]) -> tuple[System, State]:
+def _point(data: Dataset, place: dict[Any, int]) -> tuple[System, State]:
     """Return the system and the initial state at a point of a map."""
-    here = found.isel(place)
-    given: dict[str, float] = {"phase": 0.0, "angle": 0.0, "velocity": 0.0, **NO_BRACES}
+    here = data.isel(place)
+    values: dict[str, float] = {"phase": 0.0, "angle": 0.0, "velocity": 0.0, **NO_BRACES}
     for name in QUANTITIES:
         if name in here.coords:
-            given[name] = float(here.coords[name])
-        elif name in found.attrs:
-            given[name] = float(found.attrs[name])
-    clock = {name: given[name] for name in ("period", "frequency") if name in given}
-    forcing = Harmonic(given["amplitude"], phase=given["phase"], **clock)
+            values[name] = float(here.coords[name])
+        elif name in data.attrs:
+            values[name] = float(data.attrs[name])
+    clock = {name: values[name] for name in ("period", "frequency") if name in values}
+    forcing = Harmonic(values["amplitude"], phase=values["phase"], **clock)
     braces = (
-        Braces(given["brace_angle"], given["brace_restitution"])
-        if np.isfinite(given["brace_angle"])
+        Braces(values["brace_angle"], values["brace_restitution"])
+        if np.isfinite(values["brace_angle"])
         else None
     )
-    system = System(forcing, given["restitution"], braces, given.get("critical_angle", 0.0) or None)
-    return system, State(given["angle"], given["velocity"])
+    system = System(forcing, values["restitution"], braces, values.get("critical_angle", 0.0) or None)
+    return system, State(values["angle"], values["velocity"])

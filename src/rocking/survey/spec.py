@@ -30,7 +30,7 @@ from rocking.model.system import (
     check_periodic,
     quantities,
 )
-from rocking.model.text import shown
+from rocking.model.text import formatted
 from rocking.model.validation import (
     Incomplete,
     Refusal,
@@ -101,11 +101,11 @@ def axis(name: str, values: Any, span: tuple[float, float]) -> np.ndarray:
     inside = (array >= low) & (array <= high)
     if not inside.all():
         where = int(np.argmin(inside))
-        raise Refusal(name, allowed, Text(f"{shown(array[where])} at index {where}"))
+        raise Refusal(name, allowed, Text(f"{formatted(array[where])} at index {where}"))
     rising = np.diff(array) > 0
     if not rising.all():
         where = int(np.argmin(rising))
-        got = f"{shown(array[where])} before {shown(array[where + 1])} at index {where + 1}"
+        got = f"{formatted(array[where])} before {formatted(array[where + 1])} at index {where + 1}"
         raise Refusal(name, allowed, Text(got))
     return array + 0.0  # no negative zeros
 
@@ -277,14 +277,15 @@ def points(values: Values, fixed: Mapping[str, float]) -> Points:
     count = next(iter(values.values())).size
     usual = {"phase": 0.0, **NO_BRACES, "critical_angle": 0.0, "angle": 0.0, "velocity": 0.0}
     constants = usual | dict(fixed)
-    given = {name: np.broadcast_to(value, count) for name, value in constants.items()} | dict(values)
-    if "frequency" in given:
-        given["period"] = math.tau / given["frequency"]
+    arguments = {name: np.broadcast_to(value, count) for name, value in constants.items()} | dict(values)
+    if "frequency" in arguments:
+        arguments["period"] = math.tau / arguments["frequency"]
     else:
-        given["frequency"] = math.tau / given["period"]
-    given["phase"] = _within_a_turn(given["phase"])
+        arguments["frequency"] = math.tau / arguments["period"]
+    arguments["phase"] = _within_a_turn(arguments["phase"])
     return Points(
-        np.stack([given[name] for name in SYSTEM], axis=1), np.stack([given[name] for name in START], axis=1)
+        np.stack([arguments[name] for name in SYSTEM], axis=1),
+        np.stack([arguments[name] for name in START], axis=1),
     )
 
 
@@ -348,22 +349,22 @@ class MotionSpec(SurveySpec):
     def inputs(self, values: Values) -> Runs:
         """Return the runs at n points."""
         count = next(iter(values.values())).size
-        given = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
-        record = np.asarray(given["record"], dtype=np.int64)
-        ratio, slenderness = self.fixed["inertia_ratio"], given["slenderness"]
-        alpha = _each(frequency_parameter, given["size"], ratio)
-        restitution = given.get("restitution")
+        arguments = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
+        record = np.asarray(arguments["record"], dtype=np.int64)
+        ratio, slenderness = self.fixed["inertia_ratio"], arguments["slenderness"]
+        alpha = _each(frequency_parameter, arguments["size"], ratio)
+        restitution = arguments.get("restitution")
         if restitution is None:
             restitution = _each(housner_restitution, slenderness, ratio)
         own = np.array([self.intensities[number] for number in record.tolist()])
-        factor = self.measure.factor(given["level"], own, alpha, slenderness)
+        factor = self.measure.factor(arguments["level"], own, alpha, slenderness)
         return Runs(
             self.motions,
             record,
             alpha,
-            factor * given["polarity"] / (GRAVITY * slenderness),
+            factor * arguments["polarity"] / (GRAVITY * slenderness),
             restitution,
-            given["angle"],
+            arguments["angle"],
             slenderness,
             self.full,
         )
@@ -388,7 +389,7 @@ class MotionSpec(SurveySpec):
 
 def motion_spec(
     records: RecordSet,
-    given: Mapping[str, Any],
+    arguments: Mapping[str, Any],
     *,
     intensity: str,
     model: str = "slender",
@@ -410,9 +411,9 @@ def motion_spec(
     if model == "full":
         spans["slenderness"] = CRITICAL_ANGLE.range
     checked: dict[str, Any] = {
-        name: number_or_axis("levels" if name == "level" else name, given.get(name), span)
+        name: number_or_axis("levels" if name == "level" else name, arguments.get(name), span)
         for name, span in spans.items()
-        if given.get(name) is not None or name != "restitution"
+        if arguments.get(name) is not None or name != "restitution"
     }
     axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
     fixed = {name: value for name, value in checked.items() if name not in axes}
@@ -490,10 +491,10 @@ class PulseSpec(SurveySpec):
     def inputs(self, values: Values) -> Pulses:
         """Return the pulses at n points."""
         count = next(iter(values.values())).size
-        given = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
-        duration = turns(self.kind) * math.tau / given["frequency"]
-        angle = given["critical_angle"] if self.full else np.zeros(count)
-        return Pulses(self.kind, given["amplitude"], duration, given["restitution"], angle, self.full)
+        arguments = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
+        duration = turns(self.kind) * math.tau / arguments["frequency"]
+        angle = arguments["critical_angle"] if self.full else np.zeros(count)
+        return Pulses(self.kind, arguments["amplitude"], duration, arguments["restitution"], angle, self.full)
 
     def described(self) -> dict[str, Any]:
         """Return the kind of the pulse and the quantities that do not vary, by name."""

@@ -106,8 +106,8 @@ def rocking_spectrum(
     >>> import numpy as np
     >>> import rocking as rk
     >>> block = rk.Block(height=2.0, width=0.5)
-    >>> found = rk.rocking_spectrum(rk.example_ground_motion(), block, size=np.linspace(0.5, 3, 6))
-    >>> found.dataset.peak.dims, found.dataset.attrs["slenderness"] == block.critical_angle
+    >>> result = rk.rocking_spectrum(rk.example_ground_motion(), block, size=np.linspace(0.5, 3, 6))
+    >>> result.dataset.peak.dims, result.dataset.attrs["slenderness"] == block.critical_angle
     (('size',), True)
     """
     chosen = record_set(records)
@@ -127,8 +127,8 @@ def rocking_spectrum(
         inertia_ratio=RECTANGLE if inertia_ratio is None else inertia_ratio,
         model=model,
     )
-    found = run_survey(spec, ending(ROCKING_SPECTRUM), store, executor, progress=progress, repair=repair)
-    return RockingSpectrum(described(found, spec, chosen))
+    data = run_survey(spec, ending(ROCKING_SPECTRUM), store, executor, progress=progress, repair=repair)
+    return RockingSpectrum(described(data, spec, chosen))
 
 
 def quantities_of_block(block: Block) -> dict[str, Any]:
@@ -137,20 +137,20 @@ def quantities_of_block(block: Block) -> dict[str, Any]:
     return {"size": block.radius, "slenderness": block.critical_angle, "restitution": restitution}
 
 
-def described(found: xr.Dataset, spec: MotionSpec, records: RecordSet) -> xr.Dataset:
+def described(data: xr.Dataset, spec: MotionSpec, records: RecordSet) -> xr.Dataset:
     """Return a dataset with names and peak accelerations of its records, and α of its sizes."""
-    if "record" in found.dims:
+    if "record" in data.dims:
         pga = np.array([motion.pga for motion in records])
         metadata = {"long_name": "peak ground acceleration", "units": "m/s²"}
-        found = with_names(found, records).assign_coords(pga=("record", pga, metadata))
+        data = with_names(data, records).assign_coords(pga=("record", pga, metadata))
     else:
-        found.attrs["record"] = records.names[0]
-    if "size" in found.dims:
+        data.attrs["record"] = records.names[0]
+    if "size" in data.dims:
         ratio = spec.fixed["inertia_ratio"]
-        alpha = [frequency_parameter(size, ratio) for size in found["size"].values.tolist()]
+        alpha = [frequency_parameter(size, ratio) for size in data["size"].values.tolist()]
         metadata = {"long_name": "frequency parameter", "symbol": "α", "units": "1/s"}
-        found = found.assign_coords(frequency_parameter=("size", np.array(alpha), metadata))
-    return found
+        data = data.assign_coords(frequency_parameter=("size", np.array(alpha), metadata))
+    return data
 
 
 OVERTURNING_SPECTRUM = "Overturning spectrum of a block under one pulse"
@@ -210,10 +210,10 @@ def overturning_spectrum(
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Pulse("one-sine", amplitude=5.0, duration=1.0), restitution=0.9)
-    >>> found = rk.overturning_spectrum(system, amplitude=[3.0, 4.0, 7.0, 8.0], frequency=[4, 5]).dataset
-    >>> (found.outcome.sel(frequency=5) == 2).values.tolist()
+    >>> result = rk.overturning_spectrum(system, amplitude=[3.0, 4.0, 7.0, 8.0], frequency=[4, 5]).dataset
+    >>> (result.outcome.sel(frequency=5) == 2).values.tolist()
     [False, True, False, True]
-    >>> found.impacts_since_rest.sel(frequency=5).values[[1, 3]].tolist()
+    >>> result.impacts_since_rest.sel(frequency=5).values[[1, 3]].tolist()
     [1, 0]
     """
     axes = {
@@ -223,5 +223,5 @@ def overturning_spectrum(
         "critical_angle": critical_angle,
     }
     spec, measure = pulse_spec(system, axes), pulse_ending(OVERTURNING_SPECTRUM)
-    found = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
-    return OverturningSpectrum(found, system=system)
+    data = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
+    return OverturningSpectrum(data, system=system)

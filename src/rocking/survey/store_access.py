@@ -11,7 +11,7 @@ from pathlib import Path
 from threading import current_thread, main_thread
 
 from rocking.model.files import check_folder, not_written, resolve_path
-from rocking.model.text import shown_path
+from rocking.model.text import formatted_path
 from rocking.model.validation import WrongType
 
 ROOT = "zarr.json"
@@ -33,7 +33,7 @@ def check_store(path: str | os.PathLike[str]) -> Path:
     folder = Path(path)
     place = resolve_path("store", folder)
     if place.exists() and not place.is_dir():
-        raise StoreError(f"store must be the path of a folder; got {shown_path(path)}, which is a file")
+        raise StoreError(f"store must be the path of a folder; got {formatted_path(path)}, which is a file")
     if not (place / ROOT).is_file():
         check_folder("store", folder)
     names = {each.name for each in place.iterdir()} if place.exists() else set()
@@ -45,14 +45,14 @@ def check_store(path: str | os.PathLike[str]) -> Path:
 
 def something_else(folder: Path, what: str) -> str:
     """Return the message for a folder that is not a store of a survey."""
-    return f"store must be a new folder, or the folder of an earlier survey; got {shown_path(folder)}, which is {what}"
+    return f"store must be a new folder, or the folder of an earlier survey; got {formatted_path(folder)}, which is {what}"
 
 
 def place_of(folder: Path) -> tuple[int, int] | None:
     """Return the device and the inode of a folder; None if it does not exist."""
     with suppress(OSError):
-        found = folder.stat()
-        return found.st_dev, found.st_ino
+        result = folder.stat()
+        return result.st_dev, result.st_ino
     return None
 
 
@@ -73,7 +73,7 @@ def lock(folder: Path, *, shared: bool) -> Iterator[None]:
             fcntl.flock(handle, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
         except BlockingIOError:
             raise StoreError(
-                f"store {shown_path(folder)} is in use by another run; wait until that run ends, or stop it"
+                f"store {formatted_path(folder)} is in use by another run; wait until that run ends, or stop it"
             ) from None
         yield
     finally:
@@ -105,7 +105,7 @@ def wrap_write_errors(folder: Path) -> Iterator[None]:
     except StoreError:
         raise
     except OSError as error:
-        raise StoreError(not_written(f"store {shown_path(folder)}", error)) from error
+        raise StoreError(not_written(f"store {formatted_path(folder)}", error)) from error
 
 
 @contextmanager
@@ -116,10 +116,10 @@ def reading(folder: Path) -> Iterator[None]:
     except (StoreError, MemoryError):
         raise
     except PermissionError as error:
-        raise StoreError(f"store {shown_path(folder)} cannot be read: {error.strerror}") from error
+        raise StoreError(f"store {formatted_path(folder)} cannot be read: {error.strerror}") from error
     except Exception as error:
         raise StoreError(
-            f"store {shown_path(folder)} is damaged: one of its files {ROOT} cannot be read ({error}); "
+            f"store {formatted_path(folder)} is damaged: one of its files {ROOT} cannot be read ({error}); "
             "restore it from a backup, or give another folder"
         ) from error
 

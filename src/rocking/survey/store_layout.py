@@ -9,7 +9,7 @@ import numpy as np
 from attrs import frozen
 
 from rocking.model.package import VERSION
-from rocking.model.text import shown, shown_path
+from rocking.model.text import formatted, formatted_path
 from rocking.model.validation import Statement
 from rocking.survey.measurement import Measurement
 from rocking.survey.spec import SurveySpec
@@ -108,10 +108,10 @@ def check_described(stored: Any) -> None:
     """Raise TypeError for metadata that `fingerprint` never returns."""
     kinds = {"fixed": dict, "options": dict, "over": list, "variables": list}
     if not isinstance(stored, dict):
-        raise TypeError(f"the metadata are {shown(stored)}")
+        raise TypeError(f"the metadata are {formatted(stored)}")
     for name, kind in kinds.items():
         if not isinstance(stored.get(name, kind()), kind):
-            raise TypeError(f"the metadata have {name} = {shown(stored[name])}")
+            raise TypeError(f"the metadata have {name} = {formatted(stored[name])}")
 
 
 def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) -> None:
@@ -134,7 +134,7 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
         more = f"; and {len(differences) - len(kept)} more" if len(kept) < len(differences) else ""
         raise Statement(
             "{store}",
-            f"{shown_path(path)} holds a different survey: {'; '.join(kept)}{more}",
+            f"{formatted_path(path)} holds a different survey: {'; '.join(kept)}{more}",
             remedy="give another folder, or the same values",
         )
 
@@ -143,7 +143,7 @@ def why_finished(stored: Mapping[str, Any], mine: Mapping[str, Any]) -> str:
     """Return why no results may be added to a store of the same survey; empty if they may."""
     there, here = stored.get("method"), mine["method"]
     if there != here:
-        return f"its results are those of method {shown(there)}, and this version computes with method {here}"
+        return f"its results are those of method {formatted(there)}, and this version computes with method {here}"
     if stored["format"] != FORMAT:
         return f"its format {stored['format']} does not bind tiles to their survey, as format {FORMAT} does"
     return ""
@@ -178,8 +178,8 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
             exact[:reach:step] = there
             return exact, times
     raise ValueError(
-        f"store {shown_path(path)} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}; the requested {here.size} "
-        f"from {here[0]:.6g} to {here[-1]:.6g} omit some of them (give these values; more values beyond "
+        f"store {formatted_path(path)} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}; "
+        f"the requested {here.size} from {here[0]:.6g} to {here[-1]:.6g} omit some of them (give these values; more values beyond "
         "the last or at half the spacing are possible)"
     )
 
@@ -208,4 +208,4 @@ def _difference(name: str, there: Any, here: Any) -> str:
 def _told(value: Any, digits: int) -> str:
     if isinstance(value, float):
         return f"{value:.{digits}g}"
-    return "not given" if value is None else shown(value)
+    return "not given" if value is None else formatted(value)

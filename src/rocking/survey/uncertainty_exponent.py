@@ -120,18 +120,20 @@ class Boundaries:
         """
         if runs == 0:
             return None, None
-        found, starts = self._followed(runs)
+        result, starts = self._followed(runs)
         before = math.inf
         while True:
-            both = self._fitted(found, starts)
+            both = self._fitted(result, starts)
             widest = max((one.high - one.low for one in both if one is not None), default=0.0)
             if widest <= width or widest > NARROWER * before or starts.size // 2 >= MAX_SAMPLES:
                 return both
             before = widest
-            wanted = starts.size // 2 * min(max(SPARE * (widest / width) ** 2, LEAST), AT_ONCE)
-            more, others = self._followed(int(min(wanted, MAX_SAMPLES)) - starts.size // 2)
-            joined = {name: _appended(found[name], more[name], starts.shape, others.shape) for name in found}
-            found, starts = joined, np.concatenate([starts, others], axis=1)
+            requested = starts.size // 2 * min(max(SPARE * (widest / width) ** 2, LEAST), AT_ONCE)
+            more, others = self._followed(int(min(requested, MAX_SAMPLES)) - starts.size // 2)
+            joined = {
+                name: _appended(result[name], more[name], starts.shape, others.shape) for name in result
+            }
+            result, starts = joined, np.concatenate([starts, others], axis=1)
 
     def _followed(self, runs: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Return the results of new triples of initial states, and the states (distances, n, 3, 2)."""
@@ -139,14 +141,14 @@ class Boundaries:
         starts = tried.reshape(-1, 2)
         if self.system.braces is not None:
             starts[:, 0] = np.clip(starts[:, 0], -self.system.braces.angle, self.system.braces.angle)
-        shown = "boundary runs" if self.progress else ""
-        return sampled(points_of(self.system, starts), self.measure, self.executor, shown), tried
+        title = "boundary runs" if self.progress else ""
+        return sampled(points_of(self.system, starts), self.measure, self.executor, title), tried
 
-    def _fitted(self, found: dict[str, np.ndarray], starts: np.ndarray) -> Exponents:
-        labels, _ = label_attractors(self.system, found)
+    def _fitted(self, rows: dict[str, np.ndarray], starts: np.ndarray) -> Exponents:
+        labels, _ = label_attractors(self.system, rows)
         (a, c), (b, d) = self.low, self.high
         reach = distances((b - a, d - c))
-        overturned = (found["kind"] == kernel.OVERTURNS).reshape(starts.shape[:3])
+        overturned = (rows["kind"] == kernel.OVERTURNS).reshape(starts.shape[:3])
         return exponent(reach, overturned), exponent(reach, labels.reshape(starts.shape[:3]))
 
 

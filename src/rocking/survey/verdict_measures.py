@@ -21,10 +21,10 @@ from rocking.survey.spec import SYSTEM, Points, points
 
 def verdicts(points: Points, options: Mapping[str, int], stop: np.ndarray) -> results.ResultArrays | None:
     """Return the verdicts at points, with the conventions of `classify`; None if another thread sets `stop`."""
-    found: results.ResultArrays | None = batch.classify_batch(
+    result: results.ResultArrays | None = batch.classify_batch(
         *points, options["max_cycles"], options["max_period"], stop
     )
-    return found
+    return result
 
 
 def anchors(points: Points, judged: results.ResultArrays) -> np.ndarray:
@@ -51,7 +51,7 @@ def averages(points: Points, chaotic: np.ndarray, cycles: int, stop: np.ndarray)
     array (n, 2)
         Mean Θ and its standard error; NaN for points that are not chaotic.
     """
-    found = np.full((len(points.systems), 2), math.nan)
+    values = np.full((len(points.systems), 2), math.nan)
     count = min(cycles, MAX_FOLLOWED)
     for k in np.flatnonzero(chaotic):
         if stop[0]:
@@ -59,8 +59,8 @@ def averages(points: Points, chaotic: np.ndarray, cycles: int, stop: np.ndarray)
         system = system_of(dict(zip(SYSTEM, points.systems[k].tolist(), strict=True)))
         late = _late_angles(system, State(*points.starts[k]), count)
         means = late[: late.size // BATCHES * BATCHES].reshape(BATCHES, -1).mean(axis=1)
-        found[k] = means.mean(), means.std(ddof=1) / math.sqrt(BATCHES)
-    return found
+        values[k] = means.mean(), means.std(ddof=1) / math.sqrt(BATCHES)
+    return values
 
 
 def _late_angles(system: System, start: State, cycles: int) -> np.ndarray:

@@ -22,7 +22,7 @@ from zarr.core.metadata import ArrayV3Metadata
 from zarr.storage import LocalStore
 
 from rocking.model.files import renaming
-from rocking.model.text import shown_path
+from rocking.model.text import formatted_path
 from rocking.survey.measurement import Measurement
 from rocking.survey.memory import attributes
 from rocking.survey.spec import SurveySpec
@@ -80,7 +80,7 @@ class Files(LocalStore):
         """Raise StoreError if the folder is no longer the one that was opened."""
         if self.place != place_of(self.root):
             raise StoreError(
-                f"store {shown_path(self.root)} was moved, deleted or replaced during the run, which writes nothing more "
+                f"store {formatted_path(self.root)} was moved, deleted or replaced during the run, which writes nothing more "
                 "(run again with the folder in its place, or with another one)"
             )
 
@@ -93,8 +93,8 @@ class Files(LocalStore):
 
     def kept(self, key: str) -> bytes | None:
         """Return the bytes of a file, or None if it is missing."""
-        found = self.get_sync(key)
-        return None if found is None else found.to_bytes()
+        result = self.get_sync(key)
+        return None if result is None else result.to_bytes()
 
     def keep(self, key: str, content: bytes) -> None:
         """Write bytes to a file."""
@@ -135,11 +135,11 @@ def make_groups(
 ) -> list[zarr.Group]:
     """Return one group for each level, with the attributes of the survey; groups that are not ``there`` are created."""
     metadata = _plain(attributes(spec, measure))
-    found = _made(files, {level.name: GroupMetadata(metadata) for level in levels}, there)
-    for group in found.values():
+    result = _made(files, {level.name: GroupMetadata(metadata) for level in levels}, there)
+    for group in result.values():
         if not files.refusal and group.attrs.asdict() != metadata:
             group.attrs.put(metadata)
-    return list(found.values())
+    return list(result.values())
 
 
 def make_arrays(
@@ -153,7 +153,7 @@ def make_arrays(
 
     ``there`` holds the existing arrays of each level.
     """
-    wanted = {
+    requested = {
         f"{level.name}/{name}": description
         for level in levels
         for name, description in _descriptions(level, spec, measure).items()
@@ -163,28 +163,28 @@ def make_arrays(
         for level, those in zip(levels, there, strict=True)
         for name, array in those.items()
     }
-    found = _made(files, wanted, known)
+    result = _made(files, requested, known)
     for level in levels:
         for name, values in level.axes.items():
-            array = _sized(found[f"{level.name}/{name}"], values.shape)
+            array = _sized(result[f"{level.name}/{name}"], values.shape)
             for key, content in _chunks(array, values):
                 if files.kept(key) != content:  # missing or damaged: the content is known
                     files.keep(key, content)
     return [
-        {each.name: _sized(found[f"{level.name}/{each.name}"], level.shape) for each in measure.variables}
+        {each.name: _sized(result[f"{level.name}/{each.name}"], level.shape) for each in measure.variables}
         for level in levels
     ]
 
 
-def _made(files: Files, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> dict[str, Any]:
+def _made(files: Files, requested: Mapping[str, Any], there: Mapping[str, Any]) -> dict[str, Any]:
     """Return the wanted groups or arrays by path; missing ones are created from their metadata.
 
     They are created one at a time, because Zarr prints all but the first of several simultaneous errors on stderr.
     """
-    found = {path: there.get(path) for path in wanted}
-    for path in [path for path, known in found.items() if known is None]:
-        found |= zarr.create_hierarchy(store=files, nodes={path: wanted[path]})
-    return found
+    rows = {path: there.get(path) for path in requested}
+    for path in [path for path, known in rows.items() if known is None]:
+        rows |= zarr.create_hierarchy(store=files, nodes={path: requested[path]})
+    return rows
 
 
 def _descriptions(level: Level, spec: SurveySpec, measure: Measurement) -> dict[str, Any]:
@@ -268,12 +268,12 @@ def digests(survey: bytes, tile: Tile, points: tuple[int, ...], chunks: Mapping[
     place.update(json.dumps([tile.level.number, tile.index, points]).encode())
     for (name, values), count in zip(tile.axes().items(), points, strict=True):
         place.update(name.encode() + values[:count].astype("<f8").tobytes())
-    found = {}
+    rows = {}
     for name, content in chunks.items():
         own = place.copy()
         own.update(json.dumps(name).encode() + content)
-        found[name] = own.hexdigest()
-    return json.dumps({"points": points, "sha256": found}).encode()
+        rows[name] = own.hexdigest()
+    return json.dumps({"points": points, "sha256": rows}).encode()
 
 
 def wrong(

@@ -17,7 +17,7 @@ import xarray as xr
 import zarr
 
 from rocking.model.files import takes_files
-from rocking.model.text import listed, shown_path
+from rocking.model.text import formatted_path, listed
 from rocking.model.validation import warn_of_input
 from rocking.survey import zarr_files
 from rocking.survey import zarr_files as zarr_metadata
@@ -97,8 +97,8 @@ class Store:
 
     def read(self, tile: Tile, names: tuple[str, ...] = ()) -> Arrays:
         """Return the results of a tile for the named variables. Default: all variables."""
-        wanted = names or tuple(self.arrays[tile.level.number])
-        return {name: self._read(tile.level, name, tile.region) for name in wanted}
+        requested = names or tuple(self.arrays[tile.level.number])
+        return {name: self._read(tile.level, name, tile.region) for name in requested}
 
     def coarser(self, tile: Tile) -> Arrays:
         """Return the results that a tile shares with the previous level."""
@@ -107,13 +107,13 @@ class Store:
         held = self._held(level)
         if held is not None:
             return {name: values[shared[1]] for name, values in held.items()}
-        found = {name: self._read(level, name, shared[1]) for name in self.arrays[level.number]}
+        rows = {name: self._read(level, name, shared[1]) for name in self.arrays[level.number]}
         for each in self.measure.variables:
-            if (found[each.name] == each.fill).any():
+            if (rows[each.name] == each.fill).any():
                 raise StoreError(
-                    f"store {shown_path(self.path)} lost files during the run (run again to recompute them)"
+                    f"store {formatted_path(self.path)} lost files during the run (run again to recompute them)"
                 )
-        return found
+        return rows
 
     def write(self, tile: Tile, answers: Arrays) -> None:
         """Write the results of a tile, at last its digests, which mark it as complete."""
@@ -150,20 +150,20 @@ class Store:
 
     def check(self, *, repair: bool) -> None:
         """Read all complete tiles; damage raises StoreError or, with `repair`, the tiles are recomputed."""
-        found: list[str] = []
+        rows: list[str] = []
         for tile in (tile for level in self.levels for tile in self._marked(level)):
             points, damaged = self._inspected(tile)
-            found += [shown_path(self.path / name) for name in damaged]
+            rows += [formatted_path(self.path / name) for name in damaged]
             if not damaged:
                 self.begun[tile.level.number, tile.index] = points
                 self.done += int(tile.own(self.known(tile)).sum())
-        if found and not repair:
+        if rows and not repair:
             remedy = (
                 "restore these files, or give another folder"
                 if self.finished
                 else "recompute these tiles with repair"
             )
-            raise StoreError(f"store {shown_path(self.path)} is damaged at {listed(found)} ({remedy})")
+            raise StoreError(f"store {formatted_path(self.path)} is damaged at {listed(rows)} ({remedy})")
 
     def _marked(self, level: Level) -> list[Tile]:
         """Return the tiles of a level that are marked as complete, from a list of the folder instead of a test of each tile."""
@@ -173,8 +173,8 @@ class Store:
             if self.bound is None
             else f"{level.name}/{marker}/{zarr_files.FOLDER}"
         )
-        found = (path.relative_to(folder).parts for path in folder.glob("/".join("*" * len(level.shape))))
-        numbered = (tuple(map(int, parts)) for parts in found if all(map(str.isdecimal, parts)))
+        result = (path.relative_to(folder).parts for path in folder.glob("/".join("*" * len(level.shape))))
+        numbered = (tuple(map(int, parts)) for parts in result if all(map(str.isdecimal, parts)))
         return [
             level.at(index)
             for index in sorted(numbered)
@@ -246,7 +246,7 @@ class Store:
         self.finished = self.outdated or self.finished
         if self.finished:
             self.files.refusal = (
-                f"store {shown_path(self.path)} lacks some of these points and cannot be resumed: {self.finished} "
+                f"store {formatted_path(self.path)} lacks some of these points and cannot be resumed: {self.finished} "
                 "(give another folder; what is there can be read and plotted)"
             )
         with reading(self.path):
@@ -292,7 +292,7 @@ def opened(
     with lock(folder, shared=not writable):
         kept = Store(folder, spec, measure, repair=repair, writable=writable)
         if kept.outdated:
-            warn_of_input(f"all results are read from store {shown_path(folder)}: {kept.outdated}")
+            warn_of_input(f"all results are read from store {formatted_path(folder)}: {kept.outdated}")
         yield kept
 
 

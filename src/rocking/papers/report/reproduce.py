@@ -67,18 +67,18 @@ def reproduce(
     """
     if figures is None:
         require_extra("report")
-    wanted = paper.known(paper.names if figures is None else figures)
+    requested = paper.known(paper.names if figures is None else figures)
     folder = check_folder("folder", folder)
     folder.mkdir(parents=True, exist_ok=True)
-    steps = {name: steps_of(paper, name, folder) for name in wanted}
-    every = [step for name in wanted for step in steps[name]]
+    steps = {name: steps_of(paper, name, folder) for name in requested}
+    every = [step for name in requested for step in steps[name]]
     cost = sum(step.cost for step in every) + (paper.page_cost if figures is None else 0.0)
     title = f"{paper.title}: {_contents(paper, steps)}"
     with Bar(cost, title=title, in_seconds=True, shown=instance("progress", progress, bool)) as bar:
         results = dict(zip(every, carry_out(every, bar), strict=True))
         written: list[Path] = []
         chapters: list[page.Verdicts] = []
-        for name in wanted:
+        for name in requested:
             computed = [results[step] for step in steps[name]]
             if name == CLAIMS:
                 chapters = page.verdicts(paper.chapters, computed)

@@ -48,7 +48,7 @@ def figure_2() -> Figure:
     """
     figure, axes = rk.plot.panels(rows=3, height=2.2)
     for ax, case, height in zip(axes, PERIODIC, (0.1, 0.1, 0.3), strict=True):
-        rk.plot.time_history(case.motion(), ax, cycles=case.shown)
+        rk.plot.time_history(case.motion(), ax, cycles=case.cycles)
         rk.plot.title(ax, case.name)
         ax.set_ylim(-height, height)
     return figure
@@ -66,9 +66,9 @@ def figure_3() -> Figure:
     arrows = ((0.0, 0.5), (0.0, 1.5), (1.5, 6.5))  # cycles after the first one in the figure
     for ax, case, (width, height), cycles in zip(axes, PERIODIC, limits, arrows, strict=True):
         motion = case.motion()
-        rk.plot.phase_portrait(motion, ax, cycles=case.shown)
+        rk.plot.phase_portrait(motion, ax, cycles=case.cycles)
         for cycle in cycles:
-            _draw_arrow(ax, motion, case.shown[0] + cycle)
+            _draw_arrow(ax, motion, case.cycles[0] + cycle)
         rk.plot.title(ax, case.name)
         ax.set(xlim=(-width, width), ylim=(-height, height))
     return figure
