@@ -10,6 +10,7 @@ import errno
 import logging
 import os
 import re
+import resource
 import signal
 import sys
 import warnings
@@ -121,13 +122,19 @@ def refused(error: Exception) -> tuple[int, str]:
 def lacking(error: BaseException | None) -> BaseException | None:
     """Return the error behind `error` that tells of a lack of memory or of threads, or None.
 
-    Libraries that cannot be loaded, and threads that cannot start, tell it in their messages only.
+    Libraries that cannot be loaded, and threads that cannot start, tell it in their messages only. The interpreter raises a
+    SystemError, "error return without exception set", where a library fails under a limit of memory and does not say why.
     """
     while error is not None:
         if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
             return error
         if isinstance(error, ImportError | OSError | RuntimeError) and LACK.search(str(error)):
             return error
+        if (
+            isinstance(error, SystemError)
+            and resource.getrlimit(resource.RLIMIT_AS)[0] != resource.RLIM_INFINITY
+        ):
+            return MemoryError()
         error = error.__cause__ or error.__context__
     return None
 

@@ -360,7 +360,7 @@ class OverturningSet(Result):
     >>> import rocking as rk
     >>> push = rk.GroundMotion([1.0, 1.0], step=0.4, name="push")
     >>> print(rk.overturning_set(push, rk.Block(2.0, 0.5), np.linspace(0.1, 2, 20), intensity="pga-g"))
-    1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.6 % of the range overturns; lowest result 0.373175 g.
+    1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.6 % of the range overturns; lowest found 0.373175 g.
     Intervals and gaps narrower than 0.1 g may be missed
     """
 
