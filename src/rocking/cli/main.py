@@ -20,6 +20,12 @@ from typing import NoReturn
 INTERRUPTED = 130
 LACK = re.compile("can't start new thread|failed to map segment|cannot allocate memory", re.IGNORECASE)
 
+LACKING = (
+    "the memory or the threads that this process may use do not suffice: {} "
+    "(reduce the numbers of points, samples or cycles, or raise the limits, such as those of ulimit -v and ulimit -u)"
+)
+NO_MEMORY = LACKING.format("no more memory can be allocated")
+
 
 class Terminal(logging.Handler):
     """Logging handler that prints each record as one line on stderr."""
@@ -84,8 +90,11 @@ def run() -> tuple[int, str]:
     except KeyboardInterrupt:
         return INTERRUPTED, ""
     except Exception as error:  # noqa: BLE001 (the user gets one line, not a traceback)
-        code, message = refused(error)
-        return code, " ".join(message.split())
+        try:
+            code, message = refused(error)
+            return code, " ".join(message.split())
+        except MemoryError:  # it does not suffice for that either
+            return 2, NO_MEMORY
     return code, ""
 
 
@@ -100,11 +109,7 @@ def refused(error: Exception) -> tuple[int, str]:
     if isinstance(error, KernelsUnusable | ExtraMissing):
         return 2, str(error)
     if (lack := lacking(error)) is not None:
-        why = str(lack) or "no more memory can be allocated"
-        return 2, (
-            f"the memory or the threads that this process may use do not suffice: {why} "
-            "(reduce the numbers of points, samples or cycles, or raise the limits, such as those of ulimit -v and ulimit -u)"
-        )
+        return 2, LACKING.format(lack) if str(lack) else NO_MEMORY
     if isinstance(error, ClickException):
         return 2, error.format_message()
     if isinstance(error, WriteError):
