@@ -40,14 +40,9 @@ def test_what_is_undetermined_says_why_in_plain_words(rocking):
 
 def test_json_and_files_hold_the_numbers_of_the_function(rocking, found):
     read = json.loads(rocking(f"{LINE} --csv map.csv --netcdf map.nc --json")[2])
-    assert read["kinds"] == shares(found)
-    assert read["axes"]["period"] == {"start": 0.2, "stop": 3.0, "count": 18}
-    assert (read["restitution"], read["max_cycles"], read["max_period"], read["points"]) == (
-        0.9,
-        100,
-        64,
-        360,
-    )
+    assert {each["kind"]: each["points"] for each in read["kind"]} == shares(found)
+    assert (read["period_range"], read["period_count"], read["amplitude_count"]) == ([0.2, 3.0], 18, 20)
+    assert (read["restitution"], read["max_cycles"], read["max_period"]) == (0.9, 100, 64)
     with xr.open_dataset("map.nc", engine="h5netcdf") as kept:
         assert kept.load().equals(found)
         assert kept.attrs["restitution"] == 0.9
@@ -130,9 +125,12 @@ def test_axes_in_si_are_those_of_the_block(rocking):
         for i, acceleration in enumerate(np.linspace(1, 8, 4)):
             for j, hertz in enumerate(np.linspace(0.5, 3, 5)):
                 system = block.system(acceleration=acceleration, frequency_hz=hertz)
-                assert found.amplitude[i] == pytest.approx(system.forcing.amplitude, rel=1e-15, abs=0)
-                assert found.frequency[j] == pytest.approx(system.forcing.frequency, rel=1e-15, abs=0)
-                assert list(rk.Kind)[int(found.kind[i, j])] is rk.classify(system, max_cycles=50).kind
+                assert found.amplitude[i] == pytest.approx(acceleration, rel=1e-15, abs=0)
+                assert found.frequency[j] == pytest.approx(hertz, rel=1e-15, abs=0)
+                verdict = rk.classify(system, max_cycles=50)
+                assert float(found.peak[i, j]) == pytest.approx(block.radians(verdict.peak), rel=1e-9, abs=0)
+                assert list(rk.Kind)[int(found.kind[i, j])] is verdict.kind
+        assert found.peak.attrs["units"] == "rad"
         assert found.attrs["restitution"] == block.restitution
 
 
@@ -140,7 +138,8 @@ def test_axis_may_be_a_list_in_a_study_file(rocking):
     Path("study.toml").write_text(
         "amplitude = [1, 2, 4.0]\nperiod = [1, 2]\nrestitution = 0.9\nmax_cycles = 20\n"
     )
-    assert json.loads(rocking("map --study study.toml --json")[2])["points"] == 6
+    read = json.loads(rocking("map --study study.toml --json")[2])
+    assert (read["amplitude_count"], read["period_count"]) == (3, 2)
 
 
 def test_store_of_another_map_is_refused_by_the_names_of_options(rocking):
@@ -233,8 +232,8 @@ CABINET = "map --height 1.8 --width 0.6 --acceleration-g 0.3:0.6:20 --frequency-
 
 def test_json_and_files_of_a_block_have_its_units(rocking):
     read = json.loads(rocking(f"{CABINET} --csv a.csv --netcdf a.nc --json")[2])
-    assert (read["block"]["height_m"], read["block"]["width_m"]) == (1.8, 0.6)
-    assert read["block"]["frequency_hz"] == pytest.approx({"start": 1.0, "stop": 2.0, "count": 3})
+    assert (read["block_height_m"], read["block_width_m"]) == (1.8, 0.6)
+    assert read["frequency_range_hz"] == pytest.approx([1.0, 2.0])
     slender, lifting = read["warnings"]
     assert "5.4%" in slender
     assert "1 of the 20 accelerations lie between" in lifting
@@ -257,8 +256,7 @@ def test_json_and_files_of_a_block_have_its_units(rocking):
     assert accelerations == pytest.approx(np.linspace(0.3, 0.6, 20) * 9.80665)
     assert [float(row["frequency [Hz]"]) for row in rows[:3]] == pytest.approx([1.0, 1.5, 2.0])
     with xr.open_dataset("a.nc", engine="h5netcdf") as found:
-        assert {"acceleration_m_per_s2", "frequency_hz"} < set(found.coords)
-        assert found.acceleration_m_per_s2.attrs["units"] == "m s-2"
-        assert found.acceleration_m_per_s2.values == pytest.approx(np.linspace(0.3, 0.6, 20) * 9.80665)
-        assert found.frequency_hz.values == pytest.approx([1.0, 1.5, 2.0])
+        assert [found[name].attrs["units"] for name in ("amplitude", "frequency")] == ["m s-2", "Hz"]
+        assert found.amplitude.values == pytest.approx(np.linspace(0.3, 0.6, 20) * 9.80665)
+        assert found.frequency.values == pytest.approx([1.0, 1.5, 2.0])
         assert (found.attrs["block_height_m"], found.attrs["block_width_m"]) == (1.8, 0.6)

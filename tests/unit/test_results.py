@@ -15,6 +15,7 @@ from attrs import evolve
 from PIL import Image
 
 import rocking as rk
+from rocking.model import survey_results
 from rocking.model.quantity import QUANTITIES
 from rocking.model.result import Result
 from rocking.model.survey_results import RockingSpectrum
@@ -309,9 +310,7 @@ def test_rocking_spectrum_of_version_0_1_is_refused_in_a_sentence(kept):
     """Its levels, a dimension or an attribute, were named `scale`."""
     data = made(OF_MANY_BLOCKS).dataset.drop_attrs(deep=False)
     old = data.expand_dims(scale=[1.0, 2.0]) if kept else data.assign_attrs(scale=1.0)
-    message = (
-        r"^dataset must name its levels `level`; got `scale`, their name in version 0.1 \(compute it again\)$"
-    )
+    message = r"^(dataset|result) must name its levels `level`; got `scale`, their name in version 0.1 \(compute it again\)$"
     for read in (RockingSpectrum, rk.plot.rocking_spectrum):
         with pytest.raises(ValueError, match=message):
             read(old)
@@ -327,3 +326,67 @@ def test_survey_of_blocks_of_several_angles_is_normalised():
 def test_unknown_table_is_refused():
     with pytest.raises(ValueError, match="table must be one of 'time', 'event'"):
         made("motion").to_dataframe("events")
+
+
+SURVEYED = {
+    "parametric map": lambda: rk.parametric_map(OF_BLOCK, amplitude=[2.0, 4.0], period=[1.0, 2.0]),
+    "overturning spectrum": lambda: rk.overturning_spectrum(
+        BLOCK.system(rk.Pulse("one-sine", amplitude=5.0, duration=1.0)),
+        amplitude=[3.0, 7.0],
+        frequency=[4.0, 5.0],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SURVEYED)
+def test_dataset_in_si_is_not_taken_for_a_normalised_one(name):
+    result = SURVEYED[name]()
+    kind = type(result)
+    uses = [kind, rk.plot.tiles if kind.PLOT == "parametric_map" else kind, getattr(rk.plot, kind.PLOT)]
+    if kind.PLOT == "parametric_map":
+        uses.append(rk.proved_share)
+    for use in uses:
+        with pytest.raises(ValueError, match=r"^(dataset|result) must be normalised; got one in SI units"):
+            use(result.to_xarray(), *(["tiles"] if use is rk.plot.tiles else []))
+    assert kind(result.to_xarray(units="normalised")).to_xarray().equals(result.dataset)
+
+
+@pytest.mark.parametrize("name", ["ParametricMap", "OverturningSpectrum", "RockingSpectrum"])
+@pytest.mark.parametrize("wrong", [3, xr.Dataset()])
+def test_what_is_no_dataset_of_the_class_is_refused(name, wrong):
+    with pytest.raises(TypeError, match="^dataset must be"):
+        getattr(survey_results, name)(wrong)
+
+
+def test_figure_has_the_units_of_the_result_however_it_is_passed():
+    motion, normalised = made("motion of a block"), made("motion")
+    labels = {
+        rk.plot.phase_portrait(*arguments, **named).get_xlabel()
+        for arguments, named in [((motion,), {}), ((), {"result": motion}), ((normalised,), {"block": BLOCK})]
+    }
+    assert len(labels) == 1
+    orbit = rk.classify(BLOCK.system(acceleration=4.0, frequency_hz=1.2)).orbit
+    one = rk.continue_orbit(orbit, "restitution", (0.8, 0.95))
+    assert rk.plot.branch([one, one]).get_ylabel() == rk.plot.branch(one).get_ylabel()
+    with pytest.raises(TypeError, match=r"^phase_portrait\(\) (got|has)"):
+        rk.plot.phase_portrait(motion, wrong=3)
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_figure_in_chosen_units(name):
+    result = made(name)
+    if result.PLOT:
+        assert result.plot(units="normalised") is not None
+
+
+def test_notebook_shows_the_text_of_a_result_that_has_no_figure():
+    spectrum = rk.rocking_spectrum(RECORDS, BLOCK)
+    with pytest.raises(ValueError, match="^result must vary over size or slenderness"):
+        spectrum.plot()
+    assert spectrum._repr_html_() is None
+
+
+def test_blocks_of_several_critical_angles_have_no_common_units():
+    result = rk.parametric_map(OF_BLOCK, amplitude=[1.0, 2.0], critical_angle=[0.2, 0.3])
+    with pytest.raises(ValueError, match="^block must be omitted: the critical angle varies"):
+        result.to_xarray(block=BLOCK)

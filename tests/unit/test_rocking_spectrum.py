@@ -302,7 +302,7 @@ def test_store_of_version_0_1_is_refused_in_a_sentence(tmp_path):
     rk.rocking_spectrum(RECORDS[0], **arguments)
     root = tmp_path / "a.zarr" / "zarr.json"
     root.write_text(root.read_text(encoding="utf-8").replace('"level"', '"scale"'), encoding="utf-8")
-    message = "holds a different survey: the axes are size and scale there and size and level here "
+    message = "holds a survey of version 0.1, which names its levels `scale`"
     with pytest.raises(ValueError, match=f"^store '.*a.zarr' {message}") as refused:
         rk.rocking_spectrum(RECORDS[0], **arguments)
     assert "\n" not in str(refused.value)

@@ -14,7 +14,6 @@ import click
 from attrs import frozen
 
 from rocking.cli.options import FILMS, InvalidInput, OutputFile, OutputFolder, option, refusals
-from rocking.model.block import Block, block_attributes
 from rocking.model.files import (
     TILES,
     check_replaceable,
@@ -23,13 +22,11 @@ from rocking.model.files import (
     replacing_hdf5,
     resolve_path,
 )
-from rocking.model.quantity import IN_SI
 from rocking.model.table import finite
 from rocking.model.text import formatted_path
+from rocking.survey import export
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from rocking.cli.inputs import Request
 
 Row = tuple[str, ...]
@@ -124,28 +121,6 @@ def write_csv(tables: Iterable[Table], path: Path) -> None:
             writer.writerows(zip(*(column.tolist() for column in table.values()), strict=True))
 
 
-def write_dataset(data: xr.Dataset, path: Path) -> None:
-    """Write a dataset held in memory as netCDF."""
-    with replacing_hdf5(path) as file:
-        data.to_netcdf(file, engine="h5netcdf")
-
-
-def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
-    """Return the dataset with additional coordinates in SI and with the block in its attributes."""
-    if block is None:
-        return data
-    in_si = {
-        each.key: (
-            data[name].dims,
-            each.of(block, data[name].values),
-            {"long_name": f"{each.name} in SI", "units": each.units},
-        )
-        for name, each in IN_SI.items()
-        if name in data.coords
-    }
-    return data.assign_coords(in_si).assign_attrs(block_attributes(block))
-
-
 # Reports.
 
 
@@ -186,10 +161,8 @@ class Report:
     """Table of the CSV file. Default: the principal one."""
     rows: Callable[[Any, Request], Iterable[Table]] | None = None
     """Tables of the CSV file in parts, if they are not those of the result."""
-    entries: Callable[[Any, Request], dict[str, Any]] | None = None
-    """Entries of the JSON, if they are not those of the result."""
-    netcdf: Callable[[Any, Request, Path], None] | None = None
-    """Function that writes the netCDF file, if it is not that of the result."""
+    in_parts: bool = False
+    """Whether the files are written in parts, because the result may be larger than the memory."""
 
     def drawn(self, plot: Any, computed: Any, request: Request) -> Any:
         """Return the figure of the result."""
@@ -203,20 +176,21 @@ class Report:
         """Return the tables of the CSV file."""
         if self.rows is not None:
             return self.rows(computed, request)
+        if self.in_parts:
+            return export.tables(self.result(computed).dataset, request.block)
         tables = self.result(computed).tables(block=request.block)
         return [tables[self.table or next(iter(tables))]]
 
     def write_data(self, computed: Any, request: Request, path: Path) -> None:
         """Write the netCDF file."""
-        if self.netcdf is not None:
-            self.netcdf(computed, request, path)
-            return
-        write_dataset(self.result(computed).to_xarray(block=request.block), path)
+        if self.in_parts:
+            export.to_netcdf(self.result(computed).dataset, path, request.block)
+        else:
+            with replacing_hdf5(path) as file:
+                self.result(computed).to_xarray(block=request.block).to_netcdf(file, engine="h5netcdf")
 
     def record(self, computed: Any, request: Request) -> dict[str, Any]:
         """Return the result as values of JSON."""
-        if self.entries is not None:
-            return self.entries(computed, request)
         return self.result(computed).to_dict(block=request.block)
 
 

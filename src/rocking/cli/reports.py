@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,8 +18,6 @@ from rocking.model.text import counted
 from rocking.model.verdict import Verdict
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from rocking.motion.motion import Motion
     from rocking.response.lyapunov import LyapunovSpectrum
 
@@ -117,28 +115,6 @@ def state_in_si(state: Any, block: Block) -> str:
     return f"{in_si('angle', state.angle, block)}, {in_si('velocity', state.velocity, block)}"
 
 
-def size_record(block: Block) -> dict[str, float]:
-    """Return the size of a block and its units of angle and time as a JSON object."""
-    return {
-        "height_m": block.height,
-        "width_m": block.width,
-        "critical_angle_deg": float(block.degrees(1.0)),
-        "time_unit_s": block.seconds(1.0),
-    }
-
-
-def survey_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
-    """Return the block and the quantities of its survey in SI as a JSON object."""
-    entries: dict[str, Any] = {}
-    for name, each in IN_SI.items():
-        if name in data.coords:
-            start, stop = each.of(block, data[name].values[[0, -1]]).tolist()
-            entries[each.key] = {"start": start, "stop": stop, "count": data.sizes[name]}
-        elif name in data.attrs:
-            entries[each.key] = float(each.of(block, data.attrs[name]))
-    return size_record(block) | entries
-
-
 def equation(critical_angle: float, *, full: bool, braced: bool = False) -> str:
     """Return the equation of motion in words, that of small angles with its errors for |θ| ≤ θcr, in rad."""
     from rocking.motion.model_warnings import slender_errors
@@ -185,25 +161,7 @@ def warning_lines(sentences: Iterable[str]) -> list[str]:
     return [f"{WARNING}{sentence}" for sentence in sentences]
 
 
-def with_warnings(entries: dict[str, Any], sentences: Sequence[str]) -> dict[str, Any]:
-    """Return the entries about a block in JSON, with the warnings about it."""
-    return {"block": entries, "warnings": list(sentences)}
-
-
 def undecided(count: int) -> Iterator[str]:
     """Yield a warning if outcomes are undecided."""
     if count:
         yield f"{counted(count, 'outcome')} undecided in double precision: the rounding error may exceed what decides"
-
-
-def axes_record(variable: xr.DataArray) -> dict[str, Any]:
-    """Return the axes of a variable as a JSON object, without that of the records."""
-    return {
-        str(name): {
-            "start": float(variable[name][0]),
-            "stop": float(variable[name][-1]),
-            "count": variable.sizes[name],
-        }
-        for name in variable.dims
-        if name != "record"
-    }

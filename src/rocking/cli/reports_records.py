@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.cli.output import Report, Row, Table, Text, of_dataset, write_dataset
+from rocking.cli.output import Report, Row, Table, Text, of_dataset
 from rocking.cli.reports import (
     MAX_ROWS,
-    axes_record,
     equation,
     equation_line,
     shape_warnings,
@@ -110,10 +109,10 @@ def outcome_rows(outcomes: dict[str, int], total: int) -> Iterator[Row]:
 def largest_rows(data: xr.Dataset) -> Iterator[Row]:
     """Yield the rows of the largest angle and of the largest size."""
     summary = largest_record(data)
-    if summary["largest_angle_deg"] is not None:
+    if summary["largest_angle_rad"] is not None:
         yield (
             "largest |θ| of blocks that stand",
-            f"{summary['largest_angle_deg']:.4g}°, {summary['largest_angle']:.4g} θcr",
+            f"{np.degrees(summary['largest_angle_rad']):.4g}°, {summary['largest_angle']:.4g} θcr",
         )
     if summary["largest_overturned_size_m"] is not None:
         yield "largest R that overturns", f"{summary['largest_overturned_size_m']:.6g} m"
@@ -122,9 +121,7 @@ def largest_rows(data: xr.Dataset) -> Iterator[Row]:
 def largest_record(data: xr.Dataset) -> dict[str, Any]:
     """Return the largest angles of blocks that stand, and the largest size that overturns; None if there is none."""
     peak = data.peak
-    degrees = peak * np.degrees(
-        data["slenderness"] if "slenderness" in data.dims else data.attrs["slenderness"]
-    )
+    angles = peak * (data["slenderness"] if "slenderness" in data.dims else data.attrs["slenderness"])
     stands = np.isfinite(peak.values)
     fell = None
     if "size" in data.dims and not stands.all():
@@ -132,7 +129,7 @@ def largest_record(data: xr.Dataset) -> dict[str, Any]:
         fell = float(data["size"].values[over.values].max())
     return {
         "largest_angle": float(peak.values[stands].max()) if stands.any() else None,
-        "largest_angle_deg": float(degrees.values[stands].max()) if stands.any() else None,
+        "largest_angle_rad": float(angles.values[stands].max()) if stands.any() else None,
         "largest_overturned_size_m": fell,
     }
 
@@ -144,27 +141,18 @@ def spectrum_tables(data: xr.Dataset, _: Request) -> Iterator[Table]:
         yield table | {"peak [rad]": table["peak [theta_cr]"] * slenderness}
 
 
-def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
-    """Return the result as a JSON object."""
+def spectrum_more(data: xr.Dataset, request: Request) -> dict[str, Any]:
+    """Return further entries of JSON: the records with their files, the largest angles, and the warnings."""
     records = request.records
     return {
         "records": [
             {
                 "name": name,
-                "pga_m_per_s2": motion.pga,
-                "sha256": None if motion.file is None else motion.file.sha256,
+                "pga_m_per_s2": each.pga,
+                "sha256": None if each.file is None else each.file.sha256,
             }
-            for name, motion in zip(records.names, records, strict=True)
+            for name, each in zip(records.names, records, strict=True)
         ],
-        "axes": axes_record(data.peak),
-        **{
-            name: data.attrs[name]
-            for name in (*VARYING, "inertia_ratio", "model", "intensity")
-            if name in data.attrs
-        },
-        "runs": math.prod(data.peak.shape),
-        "outcomes": counts(data, "outcome"),
-        "undecided": counts(data, "certified")["undecided"],
         **largest_record(data),
         "warnings": [*request.warnings, *spectrum_warnings(data)],
     }
@@ -173,9 +161,8 @@ def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
 SPECTRUM = Report(
     of_dataset(spectrum_text),
     figure=lambda plot, result, _: plot.rocking_spectrum(result),
+    more=of_dataset(spectrum_more),
     rows=of_dataset(spectrum_tables),
-    entries=of_dataset(spectrum_record),
-    netcdf=lambda result, _, path: write_dataset(result.dataset.load(), path),
 )
 
 

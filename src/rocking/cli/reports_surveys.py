@@ -9,18 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.cli.options import SURVEYED
-from rocking.cli.output import Report, Row, Text, of_dataset, with_block, write_dataset
+from rocking.cli.output import Report, Row, Text, of_dataset
 from rocking.cli.reports import (
     MAX_ROWS,
     angle_warning,
-    axes_record,
     block_warnings,
     in_si,
-    survey_in_si,
     system_rows,
     undecided,
     warning_lines,
-    with_warnings,
 )
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
@@ -30,7 +27,6 @@ from rocking.model.system import System
 from rocking.model.table import counts
 from rocking.model.text import counted, percent
 from rocking.model.verdict import Criterion, Outcome
-from rocking.survey.export import tables, to_netcdf
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,10 +49,9 @@ def data_warnings(data: xr.Dataset, block: Block | None) -> list[str]:
     return block_warnings(block, values(data, "amplitude"), values(data, "restitution"), full=full)
 
 
-def data_in_si(data: xr.Dataset, request: Request) -> dict[str, Any]:
-    """Return the block, the quantities and the warnings of a survey as a JSON object; empty without a block."""
-    block = request.block
-    return {} if block is None else with_warnings(survey_in_si(data, block), data_warnings(data, block))
+def survey_more(data: xr.Dataset, request: Request) -> dict[str, Any]:
+    """Return the warnings about the block of a survey as an entry of JSON; none without a block."""
+    return {} if request.block is None else {"warnings": data_warnings(data, request.block)}
 
 
 # Map.
@@ -95,18 +90,6 @@ def response_rows(data: xr.Dataset) -> Iterator[Row]:
             yield f"  {criterion}", percent(count / total), f"{counted(count, 'point')}: {criterion.why}"
 
 
-def map_record(data: xr.Dataset, _: Request) -> dict[str, Any]:
-    """Return the result as a JSON object."""
-    kinds = counts(data, "kind")
-    return {
-        "axes": axes_record(data.kind),
-        **{name: data.attrs[name] for name in (*SURVEYED, *COUNTS) if name in data.attrs},
-        "points": sum(kinds.values()),
-        "kinds": kinds,
-        "evidence": counts(data, "evidence"),
-    }
-
-
 MAP = Report(
     of_dataset(map_text),
     figure=lambda plot, result, request: plot.parametric_map(
@@ -114,10 +97,8 @@ MAP = Report(
         block=request.block,
         **{name: request.options[name] for name in DRAWN if name in request.options},
     ),
-    more=of_dataset(data_in_si),
-    rows=lambda result, request: tables(result.dataset, request.block),
-    entries=of_dataset(map_record),
-    netcdf=lambda result, request, path: to_netcdf(with_block(result.dataset, request.block), path),
+    more=of_dataset(survey_more),
+    in_parts=True,
 )
 
 
@@ -372,29 +353,20 @@ def lowest_overturning(data: xr.Dataset) -> float | None:
     return float(over[0]) if over.size else None
 
 
-def spectrum_record(data: xr.Dataset, request: Request) -> dict[str, Any]:
-    """Return the result as a JSON object."""
-    outcomes, block = counts(data, "outcome"), request.block
-    entries = {
-        "pulse": data.attrs["pulse"],
-        "axes": axes_record(data.outcome),
-        **{name: data.attrs[name] for name in ("restitution",) if name in data.attrs},
-        "runs": sum(outcomes.values()),
-        "outcomes": outcomes,
+def spectrum_more(data: xr.Dataset, request: Request) -> dict[str, Any]:
+    """Return further entries of JSON: the modes of overturning, the lowest amplitude that overturns, and the warnings."""
+    block, lowest = request.block, lowest_overturning(data)
+    si = None if block is None else IN_SI["amplitude"]
+    key = "lowest_overturning_amplitude" if si is None else f"lowest_overturning_{si.key}"
+    return {
         "modes": modes(data),
-        "undecided": counts(data, "certified")["undecided"],
-        "lowest_overturning_amplitude": lowest_overturning(data),
+        key: lowest if si is None or lowest is None else float(si.of(block, lowest)),
+        "warnings": spectrum_warnings(data, block),
     }
-    in_si = {} if block is None else {"block": survey_in_si(data, block)}
-    return entries | in_si | {"warnings": spectrum_warnings(data, block)}
 
 
 OVERTURNING_SPECTRUM = Report(
     of_dataset(spectrum_text),
     figure=lambda plot, result, request: plot.overturning_spectrum(result, block=request.block),
-    rows=lambda result, request: tables(result.dataset, request.block),
-    entries=of_dataset(spectrum_record),
-    netcdf=lambda result, request, path: write_dataset(
-        with_block(result.dataset.load(), request.block), path
-    ),
+    more=of_dataset(spectrum_more),
 )

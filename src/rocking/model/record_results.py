@@ -13,11 +13,27 @@ from rocking.model.ground_motion import MAX_FACTOR, GroundMotion
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
 from rocking.model.result import Result, along
 from rocking.model.text import counted, percent, percent_with_ends
-from rocking.model.validation import Refusal, TooShort, real, reals, refuse_if, whole, within
+from rocking.model.validation import Refusal, Text, TooShort, instance, real, reals, refuse_if, whole, within
 from rocking.model.verdict import Outcome
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+def named_levels(data: xr.Dataset, argument: str = "dataset") -> xr.Dataset:
+    """Return a dataset of levels of ground motions; ValueError for one of version 0.1, in which these are named otherwise."""
+    import xarray as xr
+
+    instance(argument, data, xr.Dataset)
+    wrong = "scale" in (*data.dims, *data.attrs)
+    refuse_if(
+        wrong,
+        argument,
+        "name its levels `level`",
+        Text("`scale`, their name in version 0.1"),
+        "compute it again",
+    )
+    return data
 
 
 @frozen
@@ -145,7 +161,7 @@ class Fragility(Result):
     PLOT = "fragility"
     LONG = ("record_level", "record_sample_level")
 
-    dataset: xr.Dataset = field(repr=False)
+    dataset: xr.Dataset = field(repr=False, converter=named_levels)
     block: Block
     fits: tuple[LognormalFit, ...] = field(repr=False)
 
@@ -235,7 +251,7 @@ class IncrementalDynamicAnalysis(Result):
     PLOT = "incremental_dynamic_analysis"
     LONG = ("record_level",)
 
-    dataset: xr.Dataset = field(repr=False)
+    dataset: xr.Dataset = field(repr=False, converter=named_levels)
     block: Block
 
     def fractiles(self, of: Any = FRACTILES) -> xr.DataArray:
@@ -367,7 +383,7 @@ class OverturningSet(Result):
     PLOT = "overturning_set"
     LONG = ("record_level",)
 
-    dataset: xr.Dataset = field(repr=False)
+    dataset: xr.Dataset = field(repr=False, converter=named_levels)
     records: RecordSet
     block: Block
 
@@ -566,7 +582,7 @@ class Sensitivity(Result):
 
     LONG = ("record_level", "record_level_change")
 
-    dataset: xr.Dataset = field(repr=False)
+    dataset: xr.Dataset = field(repr=False, converter=named_levels)
     block: Block
 
     def _summary(self) -> xr.Dataset:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import html as markup
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from importlib import import_module
+from inspect import signature
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -266,7 +268,9 @@ class Result:
         """
         draw = getattr(import_module("rocking.plot"), self.PLOT)
         if units is not None:
-            options["block"] = self._block(units, options.get("block"))
+            block = self._block(units, options.get("block"))
+            if "block" in signature(draw).parameters:
+                options["block"] = block
         return draw(self, *arguments, **options)
 
     def _figure(self) -> Any:
@@ -274,7 +278,9 @@ class Result:
         return self.plot()
 
     def _repr_html_(self) -> str | None:
-        return html(self._figure, str(self)) if self.PLOT else None
+        with suppress(Refusal):  # the function draws other results of the class
+            return html(self._figure, str(self)) if self.PLOT else None
+        return None
 
 
 def _plain(attributes: Mapping[Any, Any]) -> Iterable[tuple[Any, Any]]:

@@ -2,23 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from attrs import field, frozen
 
 from rocking.model.orbit import Orbit
-from rocking.model.quantity import LOWEST
+from rocking.model.quantity import IN_SI, LOWEST
+from rocking.model.record_results import named_levels
 from rocking.model.result import UNITS, Result, along, described
 from rocking.model.share import Share, share_variables
 from rocking.model.system import State, System, quantities
 from rocking.model.table import counts
 from rocking.model.text import percent
-from rocking.model.validation import Text, instance, one_of, refuse_if
+from rocking.model.validation import Refusal, Text, WrongType, instance, one_of, refuse_if
 from rocking.model.verdict import Kind, Verdict
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+def check_survey(name: str, data: Any, allowed: str, variables: Iterable[str]) -> xr.Dataset:
+    """Return the dataset of a survey that has some variables; WrongType, or Refusal if it is in SI units."""
+    import xarray as xr
+
+    if not isinstance(data, xr.Dataset) or any(variable not in data for variable in variables):
+        raise WrongType(name, allowed, data)
+    units = {key: each.attrs.get("units") for key, each in data.coords.items()}
+    for key, each in IN_SI.items():
+        if units.get(key) == each.units or each.key in data.attrs:
+            raise Refusal(
+                name, "be normalised", Text("one in SI units"), "take to_xarray(units='normalised')"
+            )
+    return data
 
 
 @frozen(eq=False)
@@ -31,14 +48,27 @@ class SystemSurvey(Result):
         System of the survey, without the values of the axes; None for a dataset that was read from a file.
     """
 
+    VARIABLES: ClassVar[tuple[str, ...]] = ()
+    """Variables without which a dataset is none of the class."""
+
     dataset: xr.Dataset = field(repr=False)
     system: System | None = field(default=None, repr=False, kw_only=True)
+
+    def __attrs_post_init__(self) -> None:
+        check_survey("dataset", self.dataset, f"be that of a {type(self).__name__}", self.VARIABLES)
+        if self.system is not None:
+            instance("system", self.system, System)
 
     @property
     def block(self) -> Any:
         """Block in SI units that the system was made of; None if there is none, or if blocks of several angles were surveyed."""
         known = self.system is not None and "critical_angle" not in self.dataset.coords
         return self.system.block if known else None  # type: ignore[union-attr]
+
+    def _block(self, units: str | None, block: Any) -> Any:
+        allowed = "be omitted: the critical angle varies, and with it the units"
+        refuse_if(block is not None and "critical_angle" in self.dataset.coords, "block", allowed, block)
+        return super()._block(units, block)
 
 
 def shares_line(data: xr.Dataset, variable: str, what: str, points: str) -> str:
@@ -61,7 +91,9 @@ def counted_flags(data: xr.Dataset, *variables: str) -> xr.Dataset:
         result = counts(data, variable)
         names[variable] = variable, list(result), {"long_name": text}
         numbers[f"{variable}_points"] = variable, list(result.values()), {"long_name": "number of points"}
-    return xr.Dataset(numbers, names, data.attrs)
+    axes = {f"{name}_range": values[[0, -1]].tolist() for name, values in data[variables[0]].indexes.items()}
+    sizes = {f"{name}_count": data.sizes[name] for name in data[variables[0]].dims}
+    return xr.Dataset(numbers, names, data.attrs | axes | sizes)
 
 
 @frozen(eq=False)
@@ -84,6 +116,7 @@ class ParametricMap(SystemSurvey):
     """
 
     PLOT = "parametric_map"
+    VARIABLES = ("kind", "evidence", "response_period", "symmetric")
 
     def _summary(self) -> xr.Dataset:
         return counted_flags(self.dataset, "kind", "evidence")
@@ -113,28 +146,13 @@ class OverturningSpectrum(SystemSurvey):
     """
 
     PLOT = "overturning_spectrum"
+    VARIABLES = ("outcome", "certified", "impacts_since_rest")
 
     def _summary(self) -> xr.Dataset:
         return counted_flags(self.dataset, "outcome", "certified")
 
     def __str__(self) -> str:
         return shares_line(self.dataset, "outcome", "overturning spectrum", "runs")
-
-
-def named_levels(data: xr.Dataset) -> xr.Dataset:
-    """Return a dataset of levels of ground motions; ValueError for one of version 0.1, in which these are named otherwise."""
-    import xarray as xr
-
-    instance("dataset", data, xr.Dataset)
-    wrong = "scale" in (*data.dims, *data.attrs)
-    refuse_if(
-        wrong,
-        "dataset",
-        "name its levels `level`",
-        Text("`scale`, their name in version 0.1"),
-        "compute it again",
-    )
-    return data
 
 
 @frozen(eq=False)
@@ -161,6 +179,11 @@ class RockingSpectrum(Result):
     PLOT = "rocking_spectrum"
 
     dataset: xr.Dataset = field(repr=False, converter=named_levels)
+
+    def __attrs_post_init__(self) -> None:
+        check_survey(
+            "dataset", self.dataset, "be that of a RockingSpectrum", ("outcome", "certified", "peak")
+        )
 
     def _block(self, units: str | None, block: Any) -> None:
         allowed = "be omitted: the angles are in units of the critical angle of each block"

@@ -47,12 +47,20 @@ UNIT = re.compile(
 """Unit of a normalised quantity in the description of a variable."""
 SENTENCES = {
     re.compile(
-        r"[^;.]* normalised as in Yim & Lin \(1991\), Eqs\. \(1\)-\(4\)[.;]"
-    ): "All quantities are in SI units.",
+        r"[^;.]* normalised as in Yim & Lin \(1991\), Eqs\. \(1\)-\(4\)([.;])"
+    ): r"All quantities are in SI units\1",
     re.compile(r"A peak is in units of the critical angle;"): "All quantities are in SI units;",
     re.compile(r"amplitude cos\(frequency time"): "acceleration_m_per_s2 cos(2 pi frequency_hz time",
 }
 """Sentences on units in the comment of a dataset, and the same in SI."""
+IN_SI_UNITS = {
+    "size": "size_m",
+    "size_range": "size_range_m",
+    "slenderness": "slenderness_rad",
+    "slenderness_range": "slenderness_range_rad",
+    "pga": "pga_m_per_s2",
+}
+"""Keys of quantities that are in SI units, whether or not there is a block."""
 NUMBERED = ("record", "sample")
 """Dimensions whose coordinates are numbers from 0."""
 PERIODIC = "periodic"
@@ -303,7 +311,7 @@ def dictionary(data: xr.Dataset, own: Quantities, left_out: Iterable[str], block
         if each.name not in left_out:
             rows = _keyed_rows(data, each, own, block)
             entries |= rows[0] if each.name == RESULT else {each.name: rows}
-    return {str(name): finite(value) for name, value in entries.items()}
+    return {IN_SI_UNITS.get(str(name), str(name)): finite(value) for name, value in entries.items()}
 
 
 def _keyed_rows(data: xr.Dataset, group: Group, own: Quantities, block: Any) -> list[dict[str, Any]]:
@@ -311,7 +319,7 @@ def _keyed_rows(data: xr.Dataset, group: Group, own: Quantities, block: Any) -> 
     keyed = {}
     for name, values in rows_of(data, group, with_fixed=False).items():
         si, converted = _converted(name, values, own, block)
-        keyed[group.short(name, si.key if si else name)] = converted.tolist()
+        keyed[group.short(name, si.key if si else IN_SI_UNITS.get(name, name))] = converted.tolist()
     return [dict(zip(keyed, row, strict=True)) for row in zip(*keyed.values(), strict=True)]
 
 

@@ -11,6 +11,7 @@ A function with the argument `block` takes that of the result, if it has one: th
 normalised figure.
 """
 
+from contextlib import suppress
 from functools import wraps
 from inspect import isfunction, signature
 from typing import Any
@@ -33,9 +34,18 @@ def _in_units_of_the_result(draw: Any) -> Any:
 
     @wraps(draw)
     def drawn(*args: Any, **kwargs: Any) -> Any:
-        known = getattr(args[0], "block", None) if args else None
-        if known is None or "block" in parameters.bind_partial(*args, **kwargs).arguments:
-            return draw(*args, **kwargs)
-        return draw(*args, **kwargs, block=known)
+        with suppress(TypeError):  # the function itself refuses wrong arguments
+            given = parameters.bind(*args, **kwargs).arguments
+            if "block" not in given and (block := _block(next(iter(given.values()), None))) is not None:
+                kwargs["block"] = block
+        return draw(*args, **kwargs)
 
     return drawn
+
+
+def _block(result: Any) -> Any:
+    """Return the block of a result, or the one of all results of a list; None if there is none."""
+    if not isinstance(result, list | tuple):
+        return getattr(result, "block", None)
+    blocks = [getattr(each, "block", None) for each in result]
+    return blocks[0] if blocks and all(each == blocks[0] for each in blocks) else None

@@ -17,7 +17,7 @@ from matplotlib.patches import Patch
 from rocking.model.block import Block
 from rocking.model.files import resolve_path
 from rocking.model.package import require_extra
-from rocking.model.survey_results import ParametricMap
+from rocking.model.survey_results import ParametricMap, check_survey
 from rocking.model.text import formatted_path, percent
 from rocking.model.validation import WrongType, refuse_if
 from rocking.plot import palette, style, theory_curves
@@ -104,8 +104,7 @@ def _levels(result: Any) -> list[xr.Dataset]:
     levels = list(result) if isinstance(result, Sequence) else [result]
     allowed = "be a map over two axes, as parametric_map gives it, or the folder of its store"
     for level in levels:
-        kinds = getattr(level, "kind", None)
-        if getattr(kinds, "ndim", 0) != 2 or not all(hasattr(level, name) for name in NEEDED):
+        if check_survey("result", level, allowed, NEEDED).kind.ndim != 2:
             raise WrongType("result", allowed, result)
     refuse_if(not levels, "result", allowed, result)
     return levels

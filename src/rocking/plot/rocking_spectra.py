@@ -12,8 +12,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from rocking.model.block import Block
+from rocking.model.record_results import named_levels
 from rocking.model.record_set import INTENSITIES
-from rocking.model.survey_results import OverturningSpectrum, RockingSpectrum, named_levels
+from rocking.model.survey_results import OverturningSpectrum, RockingSpectrum, check_survey
 from rocking.model.text import counted
 from rocking.model.validation import Refusal, WrongType, one_of
 from rocking.model.verdict import Outcome
@@ -179,7 +180,7 @@ def _check(data: Any) -> None:
 
     if not isinstance(data, xr.Dataset) or not {"peak", "outcome", "certified"} <= set(data.data_vars):
         raise WrongType("result", "be a rocking spectrum, as rocking.rocking_spectrum gives it", data)
-    named_levels(data)
+    named_levels(data, "result")
     peak = data.peak
     others = [str(name) for name in peak.dims if name not in LINES]
     if others:
@@ -359,11 +360,10 @@ def overturning_spectrum(
     'amplitude $A$'
     """
     data = result.dataset if isinstance(result, OverturningSpectrum) else result
-    attributes = getattr(data, "attrs", {})
-    if "pulse" not in attributes or any(name not in data for name in VARIABLES):
-        raise WrongType(
-            "result", "be an overturning spectrum, as rocking.overturning_spectrum gives it", result
-        )
+    allowed = "be an overturning spectrum, as rocking.overturning_spectrum gives it"
+    attributes = check_survey("result", data, allowed, VARIABLES).attrs
+    if "pulse" not in attributes:
+        raise WrongType("result", allowed, result)
     if data["outcome"].ndim != 2:
         raise Refusal("result", "have one coefficient of restitution", dict(data.sizes), "select one value")
     turn_across, _ = parameter("frequency", block)

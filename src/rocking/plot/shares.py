@@ -11,7 +11,6 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from rocking.model.block import Block
-from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.survey_results import ChaosShare, OverturningCurve, Repeatability, RepeatabilityMap
 from rocking.model.text import percent
 from rocking.model.validation import Refusal, instance
@@ -291,7 +290,7 @@ def _colour(name: str) -> str:
     return look_at(Kind.PERIODIC, int(periodic[1]), not periodic[2]).colour
 
 
-def repeatability_map(result: RepeatabilityMap, ax: Axes | None = None) -> Axes:
+def repeatability_map(result: RepeatabilityMap, ax: Axes | None = None, block: Block | None = None) -> Axes:
     """Plot a map of certain outcomes, one colour per type of response; uncertain points have a separate colour.
 
     Parameters
@@ -300,6 +299,8 @@ def repeatability_map(result: RepeatabilityMap, ax: Axes | None = None) -> Axes:
         Result of `rocking.repeatability_map`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
+    block : Block, optional
+        Block for SI axes and a title. Default: that of the result. None: normalised axes.
 
     Returns
     -------
@@ -308,7 +309,7 @@ def repeatability_map(result: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError
-        If `result` is not a RepeatabilityMap, or `ax` is not Axes.
+        If `result` is not a RepeatabilityMap, `ax` is not Axes, or `block` is not a Block.
 
     Notes
     -----
@@ -332,17 +333,19 @@ def repeatability_map(result: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     True
     """
     instance("result", result, RepeatabilityMap)
-    ax = style.own(ax, height=3.6)
     data, count = result.dataset, len(Kind)
+    (turn_up, y_label), (turn_across, x_label) = (parameter(str(name), block) for name in data.kind.dims)
     up, across = (data[name].values for name in data.kind.dims)
+    ax = style.own(ax, height=3.6)
+    style.block_title(ax, block)
     seen, unknown = data.agreeing.values, data.undetermined.values
     values = np.where(unknown > 0.0, Kind.UNDETERMINED.code, data.kind.values)
     # half a run, because fractions are rounded
     values = np.where(seen + unknown < 1.0 - 0.5 / data.attrs["samples"], count, values)
     hues = [*(COLOURS[kind] for kind in Kind), palette.UNCERTAIN]
     ax.pcolormesh(
-        across,
-        up,
+        turn_across(across),
+        turn_up(up),
         values,
         cmap=ListedColormap(hues),
         norm=BoundaryNorm(np.arange(count + 2) - 0.5, count + 1),
@@ -350,7 +353,7 @@ def repeatability_map(result: RepeatabilityMap, ax: Axes | None = None) -> Axes:
         rasterized=True,
         gid="map",
     )
-    style.label(ax, *(SYSTEM_QUANTITIES[str(name)].label for name in reversed(data.kind.dims)))
+    style.label(ax, x_label, y_label)
     names = [*(str(kind) for kind in Kind), "not certain"]
     shares = np.bincount(values.ravel(), minlength=count + 1) / values.size
     handles = [

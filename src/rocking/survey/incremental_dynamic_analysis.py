@@ -120,8 +120,8 @@ def block_spec(
     if not is_axis(levels):
         remedy = "such as np.linspace(1, 10, 19)"
         raise WrongType("levels", "be an array of levels, ascending", levels, remedy)
-    if one_level and len(levels) == 1:
-        levels = levels[0]
+    if one_level and np.shape(levels) == (1,):
+        levels = np.asarray(levels).item()
     return motion_spec(
         records,
         {

@@ -20,6 +20,7 @@ from rocking.model.record_set import Intensity, RecordSet, intensity_of, record_
 from rocking.model.system import MODELS
 from rocking.model.validation import Refusal, instance, one_of, within
 from rocking.survey.ending_measures import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled
+from rocking.survey.incremental_dynamic_analysis import with_names
 from rocking.survey.measurement import Arrays
 from rocking.survey.run_survey import count_when_done, engine
 from rocking.survey.spec import MAX_LEVEL, axis
@@ -242,12 +243,7 @@ def _dataset(
         of_level = unit if name in ("level", "certified_below", "certified_above") else {}
         variables[f"switch_{name}"] = "switch", switches[name], {"long_name": long_name} | of_level
     pga = np.array([motion.pga for motion in records])
-    coordinates = {
-        "record": np.arange(len(records)),
-        "level": ("level", levels, {"long_name": measure.long_name, "symbol": measure.symbol} | unit),
-        "name": ("record", list(records.names), {"long_name": "record"}),
-        "pga": ("record", pga, {"long_name": "peak ground acceleration", "units": "m/s²"}),
-    }
+    level = "level", levels, {"long_name": measure.long_name, "symbol": measure.symbol} | unit
     attributes = {
         "Conventions": "CF-1.11",
         "title": "Overturning set of a block under ground motions",
@@ -255,4 +251,7 @@ def _dataset(
         **options,
         "records_sha256": records.digest,
     }
-    return xr.Dataset(variables, coordinates, attributes)
+    named = with_names(xr.Dataset(variables, {"level": level}, attributes), records)
+    return named.assign_coords(
+        pga=("record", pga, {"long_name": "peak ground acceleration", "units": "m/s²"})
+    )

@@ -13,9 +13,9 @@ from rocking.model.forcing import Harmonic
 from rocking.model.progress import Bar
 from rocking.model.proof import ProvedShare
 from rocking.model.share import Share
-from rocking.model.survey_results import ChaosShare, ParametricMap
+from rocking.model.survey_results import ChaosShare, ParametricMap, check_survey
 from rocking.model.system import NO_BRACES, Braces, State, System
-from rocking.model.validation import Refusal, WrongType, instance, whole
+from rocking.model.validation import Refusal, instance, whole
 from rocking.model.verdict import Kind
 from rocking.proof.prove import check_provable
 from rocking.response.classify import KINDS, classify
@@ -209,13 +209,10 @@ def proved_share(result: ParametricMap | Dataset, points: int = 300, seed: int =
     >>> shares.orbits.count == shares.orbits.of
     True
     """
-    from xarray import Dataset
-
     points = whole("points", points, 1, MAX_POINTS)
     random = generator(seed)
     data = result.dataset if isinstance(result, ParametricMap) else result
-    if not isinstance(data, Dataset) or "kind" not in data:
-        raise WrongType("result", "be a map of responses", result)
+    check_survey("result", data, "be a map of responses, as parametric_map gives it", ParametricMap.VARIABLES)
     periodic = data["kind"] == Kind.PERIODIC.code
     places = np.argwhere(periodic.values)
     if not len(places):

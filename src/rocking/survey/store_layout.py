@@ -119,6 +119,9 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
 
     A store of another method, or of an older format that can be read, is one of the same survey.
     """
+    if "scale" in (*stored.get("fixed", {}), *(stored.get("over") or ())):
+        holds = f"{formatted_path(path)} holds a survey of version 0.1, which names its levels `scale`"
+        raise Statement("{store}", holds, remedy="give another folder")
     ours, theirs = _flat(mine), _flat(stored)
     differences = [
         _difference(name, theirs.get(name), ours.get(name))
