@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from bokeh.document import Document
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import record_files as write
@@ -141,6 +141,7 @@ def test_invalid_link_keeps_the_default_of_its_field_and_says_so():
 
 
 @given(spans(*SIZES), spans(*SLENDERNESS), st.floats(0, 1), st.floats(0, 1))
+@example(Span(2.8058422127398788, 38.21875), Span(6.28125, 9.9375), 0.22985258819113535, 0.71484375)
 @settings(max_examples=100, deadline=None)
 def test_click_selects_a_block_nearer_to_it_than_any_other_point_of_the_map(sizes, angles, across, up):
     shown = attrs.evolve(DEFAULT, sizes=sizes, angles=angles)

@@ -128,7 +128,7 @@ class GroundView(View):
         size = min(max(size, self.sizes.low), self.sizes.high)
         angle = math.radians(min(max(degrees, self.angles.low), self.angles.high))
         steps = math.log(self.sizes.high / self.sizes.low), self.angles.width / self.angles.high
-        digits = max(math.ceil(-math.log10(min(steps) / (POINTS - 1))) + 1, 4)
+        digits = max(math.ceil(-math.log10(min(steps) / (POINTS - 1))) + 2, 5)
         sides = {"height": 2 * size * math.cos(angle), "width": 2 * size * math.sin(angle)}
         return {name: written(float(f"{side:.{digits}g}")) for name, side in sides.items()}
 

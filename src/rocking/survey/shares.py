@@ -212,7 +212,7 @@ def proved_share(result: ParametricMap | Dataset, points: int = 300, seed: int =
     points = whole("points", points, 1, MAX_POINTS)
     random = generator(seed)
     data = result.dataset if isinstance(result, ParametricMap) else result
-    check_survey("result", data, "be a map of responses, as parametric_map gives it", ParametricMap.VARIABLES)
+    check_survey("result", data, "be a map of responses", ParametricMap.VARIABLES)
     periodic = data["kind"] == Kind.PERIODIC.code
     places = np.argwhere(periodic.values)
     if not len(places):
