@@ -390,3 +390,14 @@ def test_blocks_of_several_critical_angles_have_no_common_units():
     result = rk.parametric_map(OF_BLOCK, amplitude=[1.0, 2.0], critical_angle=[0.2, 0.3])
     with pytest.raises(ValueError, match="^block must be omitted: the critical angle varies"):
         result.to_xarray(block=BLOCK)
+
+
+def test_variable_of_a_new_name_has_the_unit_in_its_description():
+    basin = rk.safe_basin(OF_BLOCK, amplitude=[0.2, 0.5], samples=100)
+    peaks = "amplitude", [0.1, 0.2], {"long_name": "mean peak in units of theta_cr"}
+    changed = evolve(basin, dataset=basin.dataset.assign(mean_peak=peaks))
+    in_si = changed.to_xarray().mean_peak
+    assert in_si.values == pytest.approx(BLOCK.radians(np.array([0.1, 0.2])))
+    assert in_si.attrs == {"long_name": "mean peak", "units": "rad"}
+    assert changed.to_dataframe()["mean_peak [rad]"].tolist() == in_si.values.tolist()
+    assert [row["mean_peak_rad"] for row in changed.to_dict()["amplitude"]] == in_si.values.tolist()

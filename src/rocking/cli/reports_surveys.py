@@ -217,9 +217,6 @@ LEVELS = ("lowest", "resolution", "survived_up_to")
 """Variables of the result that are amplitudes."""
 
 
-"""Quantities of a system that are attributes of the result if they do not vary; the phase of the base varies in every row."""
-
-
 COLUMNS = (*LEVELS, "surviving_above")
 
 

@@ -411,11 +411,20 @@ RESULTS: tuple[tuple[str, SI | None, tuple[str, ...]], ...] = (
     ("cycles", None, ("response_period", "orbit_period", "transient")),
 )
 """Unit, SI counterpart and names of the quantities of results."""
-RESULT_QUANTITIES = {
-    name: Quantity(name, unit=unit, si=si and _like(si, name))
-    for unit, si, names in RESULTS
-    for name in names
+DESCRIBED = {
+    "in units of theta_cr": ("theta_cr", RADIANS),
+    "in units of alpha theta_cr": ("alpha theta_cr", RADIANS_PER_SECOND),
+    "in normalised time": ("1/alpha", TIME),
 }
+"""Unit and SI counterpart of a variable of any name by the unit in its description."""
+
+
+def with_unit(name: str, unit: str, si: SI | None) -> Quantity:
+    """Return the quantity of a result that has a unit in tables and an SI counterpart."""
+    return Quantity(name, unit=unit, si=si and _like(si, name))
+
+
+RESULT_QUANTITIES = {name: with_unit(name, unit, si) for unit, si, names in RESULTS for name in names}
 """Quantities of results, as far as they have units in tables."""
 LOWEST = Quantity("lowest", unit="g theta_cr", si=_like(ACCELERATION, "lowest"))
 """Lowest amplitude that overturns; in other results a level of the intensity of ground motions."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from rocking.model.quantity import QUANTITIES, SI, SYSTEM_QUANTITIES, Quantity
+from rocking.model.quantity import DESCRIBED, QUANTITIES, SI, SYSTEM_QUANTITIES, Quantity, with_unit
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -72,9 +72,15 @@ COUNTS = (*PERIODS, *HITS, "transient")
 """Variables with integers that stand for an absent number."""
 
 
-def quantity(name: Hashable, own: Quantities) -> Quantity:
-    """Return the quantity of a variable or an attribute; one without a unit if there is none of this name."""
-    return own.get(str(name)) or QUANTITIES.get(str(name), PURE)
+def quantity(name: Hashable, own: Quantities, description: str = "") -> Quantity:
+    """Return the quantity of a variable or an attribute, by its name or by the unit in its description.
+
+    One without a unit if there is none.
+    """
+    known = own.get(str(name)) or QUANTITIES.get(str(name))
+    if known is None and (unit := UNIT.search(description)) is not None and unit[1] in DESCRIBED:
+        known = with_unit(str(name), *DESCRIBED[unit[1]])
+    return known or PURE
 
 
 # SI units.
@@ -88,7 +94,7 @@ def in_si(data: xr.Dataset, block: Any, own: Quantities) -> xr.Dataset:
     import xarray as xr
 
     def converted(name: Hashable, variable: Any) -> Any:
-        si = quantity(name, own).si
+        si = quantity(name, own, variable.attrs.get("long_name", "")).si
         if si is None or variable.dtype.kind not in "fiu":
             return variable.variable
         kept = {
@@ -282,17 +288,17 @@ def headed(
     """
     columns = {}
     for name, values in table.items():
-        si, converted = _converted(name, values, own, block)
-        beside = data[name].attrs.get("units", "1") if data is not None and name in data else "1"
-        unit = quantity(name, own).unit or beside
+        attributes = data[name].attrs if data is not None and name in data else {}
+        known = quantity(name, own, attributes.get("long_name", ""))
+        si, converted = _converted(known.si, values, block)
+        unit = known.unit or attributes.get("units", "1")
         plain = f"{name} [{unit}]" if unit not in ("", "1") else name
         columns[group.short(name, si.heading if si else plain)] = converted
     return columns
 
 
-def _converted(name: str, values: np.ndarray, own: Quantities, block: Any) -> tuple[SI | None, np.ndarray]:
+def _converted(si: SI | None, values: np.ndarray, block: Any) -> tuple[SI | None, np.ndarray]:
     """Return the SI counterpart of a column of numbers and the values in SI; None and the given values if there is none."""
-    si = quantity(name, own).si
     if block is None or si is None or values.dtype.kind not in "fiu":
         return None, values
     return si, np.asarray(si.of(block, values))
@@ -318,7 +324,8 @@ def _keyed_rows(data: xr.Dataset, group: Group, own: Quantities, block: Any) -> 
     """Return the rows of a table; in SI the key of a quantity ends with the unit."""
     keyed = {}
     for name, values in rows_of(data, group, with_fixed=False).items():
-        si, converted = _converted(name, values, own, block)
+        description = data[name].attrs.get("long_name", "") if name in data else ""
+        si, converted = _converted(quantity(name, own, description).si, values, block)
         keyed[group.short(name, si.key if si else IN_SI_UNITS.get(name, name))] = converted.tolist()
     return [dict(zip(keyed, row, strict=True)) for row in zip(*keyed.values(), strict=True)]
 

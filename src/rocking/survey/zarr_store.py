@@ -1,6 +1,6 @@
 """Results of a survey in a Zarr store (format 3): written during the run, resumable after any interruption.
 
-This module, `zarr_metadata` and `chunk_files` need the extra ``store``. They are imported for a survey with a store only.
+This module and `zarr_files` need the extra ``store``. They are imported for a survey with a store only.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from rocking.model.files import takes_files
 from rocking.model.text import formatted_path, listed
 from rocking.model.validation import warn_of_input
 from rocking.survey import zarr_files
-from rocking.survey import zarr_files as zarr_metadata
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.store_access import (
@@ -260,10 +259,10 @@ class Store:
         """Return the arrays of each level, created or enlarged as needed."""
         with reading(self.path):
             known = {level.name: self.root.get(level.name) for level in self.levels}
-        groups = zarr_metadata.make_groups(self.files, self.spec, self.measure, self.levels, known)
+        groups = zarr_files.make_groups(self.files, self.spec, self.measure, self.levels, known)
         with reading(self.path):
             there: list[dict[str, Any]] = [dict(group.arrays()) for group in groups]
-        return zarr_metadata.make_arrays(self.files, self.spec, self.measure, self.levels, there)
+        return zarr_files.make_arrays(self.files, self.spec, self.measure, self.levels, there)
 
 
 @contextmanager
