@@ -179,8 +179,9 @@ def orbit_diagram(
         Block, base motion and braces. The values of the parameter replace its own.
     start : State, optional
         Initial state (Θ, Θ') at τ = 0 of the first motion, or of each motion with ``sweep="rest"``. Default: at rest.
-    amplitude, period, frequency, phase, restitution, brace_angle, brace_restitution, critical_angle : array (n,)
-        Exactly one of them, the varied parameter: its values in any order.
+    amplitude, period, frequency, phase, restitution, brace_angle, brace_restitution, critical_angle : float or array (n,)
+        Exactly one of them, the varied parameter: a number, or values in any order. Equal ones count once. A sweep follows them
+        in ascending or descending order.
     sweep : {"both", "up", "down", "rest"}
         Direction of the sweep; "rest": no sweep, each motion begins at `start`. Default: "both".
     transient : int

@@ -31,7 +31,7 @@ from rocking.survey.random_points import (
     spread,
 )
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import Points, fixed_quantities, fixed_start, harmonic_spec, points_of
+from rocking.survey.spec import Points, fixed_start, harmonic_spec, points_of, system_quantities
 from rocking.survey.verdict_measures import KIND, response, verdicts
 
 Name = TypeVar("Name", bound=str)
@@ -220,7 +220,7 @@ def repeatability_map(
     (16, ('amplitude', 'period'))
     """
     spec = harmonic_spec(
-        fixed_quantities(system) | fixed_start(start),
+        system_quantities(system) | fixed_start(start),
         {
             "amplitude": amplitude,
             "period": period,

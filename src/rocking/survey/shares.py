@@ -21,7 +21,7 @@ from rocking.proof.prove import check_provable
 from rocking.response.classify import KINDS, classify
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.spec import HarmonicSpec, coordinate, fixed_quantities, points, quantity_axis
+from rocking.survey.spec import HarmonicSpec, coordinate, points, quantity_axis, system_quantities
 from rocking.survey.verdict_measures import interval_variables, outcome
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def chaos_share(
     ('restitution', 'response')
     """
     measure = outcome(max_cycles, max_period, TITLE)
-    quantities = fixed_quantities(system)
+    quantities = system_quantities(system)
     spans = {"period": span("period", period), "amplitude": span("amplitude", amplitude)}
     fixed = {
         name: value for name, value in quantities.items() if name not in (*spans, "frequency", "restitution")
@@ -105,7 +105,7 @@ def chaos_share(
     if restitution is None:
         values = np.array([system.restitution])
     else:
-        values = quantity_axis("restitution", restitution)
+        values = quantity_axis("restitution", restitution, "the system")
     count = whole("samples", samples, 1, MAX_SAMPLES)
     random = generator(seed)
     counts = []

@@ -180,10 +180,11 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
             exact = here.copy()
             exact[:reach:step] = there
             return exact, times
-    raise ValueError(
-        f"store {formatted_path(path)} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}; "
-        f"the requested {here.size} from {here[0]:.6g} to {here[-1]:.6g} omit some of them (give these values; more values beyond "
-        "the last or at half the spacing are possible)"
+    raise Statement(
+        "{store}",
+        f"{formatted_path(path)} holds {there.size} values of {{{name}}} from {there[0]:.6g} to {there[-1]:.6g}; "
+        f"the requested {here.size} from {here[0]:.6g} to {here[-1]:.6g} omit some of them",
+        remedy="give these values; more values beyond the last or at half the spacing are possible",
     )
 
 
