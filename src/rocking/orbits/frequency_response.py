@@ -205,7 +205,7 @@ class FrequencyResponse(ReadOnlyArrays, Result):
         return np.where(np.isnan(self.rest["steady_peak"]), self.rest["peak"], self.rest["steady_peak"])
 
     def __str__(self) -> str:
-        result = "; ".join(_told(n, self.of(n)) for n in self.modes)
+        result = "; ".join(_of_mode(n, self.of(n)) for n in self.modes)
         kinds = Counter(str(kind) for kind in self.rest["kind"])
         rest = ", ".join(f"{number:,} {kind}" for kind, number in kinds.most_common())
         return (
@@ -215,7 +215,7 @@ class FrequencyResponse(ReadOnlyArrays, Result):
         )
 
 
-def _told(n: int, branches: Sequence[Branch]) -> str:
+def _of_mode(n: int, branches: Sequence[Branch]) -> str:
     if not branches:
         return f"(1, {n}) none found"
     symmetric = sum(branch.symmetric for branch in branches)

@@ -120,7 +120,7 @@ def repeatability(
         start,
         off,
         _shares(kinds, unknown, count),
-        _shares(Counter(_told(*each) for each in zip(*columns, strict=True)), unknown, count),
+        _shares(Counter(_response(*each) for each in zip(*columns, strict=True)), unknown, count),
     )
 
 
@@ -131,7 +131,7 @@ def _shares(counts: Mapping[Name, int], unknown: int, of: int) -> dict[Name, Sha
     return shares | {name: Share(unknown, of) for name in counts if name == Kind.UNDETERMINED and unknown}
 
 
-def _told(kind: int, period: int, symmetric: int, impacts: int) -> str:
+def _response(kind: int, period: int, symmetric: int, impacts: int) -> str:
     """Return a short description of a response."""
     if kind != kernel.PERIODIC:
         return str(KINDS[kind])
