@@ -7,6 +7,7 @@ import pytest
 
 import rocking as rk
 from oracles.modes import symmetric_modes
+from rocking.model.progress import Bar
 from surveyed import system_with
 
 PERIODS = np.linspace(0.2, 3.0, 29)
@@ -195,6 +196,13 @@ def test_where_there_is_no_orbit_it_says_so():
     assert found.branches == ()
     assert "(1, 1) none found; (1, 3) none found; from rest 2 rest" in str(found)
     assert found.to_xarray().branch_number.values.tolist() == ["from rest"] * 2
+
+
+def test_progress_counts_every_value_from_rest_and_of_every_mode(monkeypatch):
+    done = []
+    monkeypatch.setattr(Bar, "advance", lambda bar, count: done.append(count))
+    rk.frequency_response(system_with(restitution=0.9), period=[1.0, 1.1, 1.2], modes=(1, 3), max_cycles=10)
+    assert done == [1] * 9
 
 
 @pytest.mark.parametrize(
