@@ -213,7 +213,7 @@ def test_progress_counts_every_value_from_rest_and_of_every_mode(monkeypatch):
         (
             dict(period=[[1.0], [2.0]]),
             ValueError,
-            r"period must be a number or an array \(n,\); got an array of shape \(2, 1\)",
+            r"period must be an array \(n,\); got an array of shape \(2, 1\)",
         ),
         (dict(progress=3), TypeError, "progress must be a bool; got 3"),
         (dict(period=[1.0, math.nan]), ValueError, r"period must hold finite numbers; got \[1.0, nan\]"),

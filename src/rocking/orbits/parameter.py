@@ -63,7 +63,8 @@ def different_values(name: str, values: Any, fewest: int, most: int) -> NDArray[
     """Return the different values of a parameter, ascending; TypeError or ValueError if they are no finite numbers in a row."""
     array = np.asarray(reals(name, values))
     if array.ndim > 1:
-        raise Refusal(name, "be a number or an array (n,)", Text(f"an array of shape {array.shape}"))
+        allowed = "be an array (n,)" if fewest > 1 else "be a number or an array (n,)"
+        raise Refusal(name, allowed, Text(f"an array of shape {array.shape}"))
     refuse_if(not np.isfinite(array).all(), name, "hold finite numbers", values)
     ordered = np.unique(array)
     if len(ordered) < fewest:

@@ -543,8 +543,11 @@ def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:
     own = {"restitution": system.restitution}
     if system.critical_angle is not None:
         own["critical_angle"] = system.critical_angle
-    named = [name for name in axes if axes[name] is not None or name in ("amplitude", "frequency")]
-    checked = {name: quantity_axis(name, axes[name], "the system" if name in own else "") for name in named}
+    required = {"amplitude", "frequency"}
+    named = [name for name in axes if axes[name] is not None or name in required]
+    checked = {
+        name: quantity_axis(name, axes[name], "" if name in required else "the system") for name in named
+    }
     return PulseSpec(checked, {name: own[name] for name in own if name not in checked}, kind=forcing.kind)
 
 
