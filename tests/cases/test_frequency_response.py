@@ -7,6 +7,7 @@ import pytest
 
 import rocking as rk
 from oracles.modes import symmetric_modes
+from rocking.model.progress import Bar
 from surveyed import system_with
 
 PERIODS = np.linspace(0.2, 3.0, 29)
@@ -197,12 +198,25 @@ def test_where_there_is_no_orbit_it_says_so():
     assert found.to_xarray().branch_number.values.tolist() == ["from rest"] * 2
 
 
+def test_progress_counts_every_value_from_rest_and_of_every_mode(monkeypatch):
+    done = []
+    monkeypatch.setattr(Bar, "advance", lambda bar, count: done.append(count))
+    rk.frequency_response(system_with(restitution=0.9), period=[1.0, 1.1, 1.2], modes=(1, 3), max_cycles=10)
+    assert done == [1] * 9
+
+
 @pytest.mark.parametrize(
     "change, error, message",
     [
         (dict(period=None), TypeError, "give exactly one of period, frequency; got none"),
-        (dict(period=1.0), ValueError, "period must be 2 to 100,000 different finite numbers; got 1.0"),
-        (dict(period=[1.0, math.nan]), ValueError, "period must be 2 to 100,000 different finite numbers"),
+        (dict(period=1.0), ValueError, "period must hold 2 different numbers or more; got 1.0"),
+        (
+            dict(period=[[1.0], [2.0]]),
+            ValueError,
+            r"period must be an array \(n,\); got an array of shape \(2, 1\)",
+        ),
+        (dict(progress=3), TypeError, "progress must be a bool; got 3"),
+        (dict(period=[1.0, math.nan]), ValueError, r"period must hold finite numbers; got \[1.0, nan\]"),
         (dict(period=[-1.0, 1.0]), ValueError, "period must lie in"),
         (dict(period="T"), TypeError, "period must be a real number or an array of real numbers; got 'T'"),
         (dict(system=system_with(amplitude=0.0, restitution=0.9)), ValueError, "amplitude must be above 0"),

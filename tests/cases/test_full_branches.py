@@ -150,7 +150,7 @@ def test_a_figure_shows_the_branch(branch):
         ),
         (
             lambda branch: rk.continue_orbit(branch.orbit(0), "brace_angle", (0.5, 1.5)),
-            "brace_angle needs a system with braces",
+            "brace_angle must be used with a braced system",
         ),
         (
             lambda branch: rk.continue_orbit(

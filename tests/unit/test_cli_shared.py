@@ -363,7 +363,7 @@ REFUSED = {
         "--pgv-ratio; got --scale and --pga-g",
         f"push.csv {SI} --pga-g 0.5": "--pga-g must be an axis, START:STOP:COUNT with … got '0.5' (example: 1:3:60)",
         f"push.csv {SI} --pga-g 0:1:20": "--pga-g must hold two numbers or more in",
-        f"push.csv {SI} --pga-g 0.1:1 --polarity 2": "--polarity must lie in [-1, 1]; got 2",
+        f"push.csv {SI} --pga-g 0.1:1 --polarity 2": "--polarity must be 1 or -1; got 2",
         f"push.csv {SI} --pga-g 0.1:1 --units g": "push.csv: the header names m/s²; omit --units, or correct the header",
         f"push.csv {SI} --pga-g 0.1:1 --baseline cubic": "--baseline must be one of 'none', 'mean', 'linear', 'quad",
         f"bare.txt {SI} --pga-g 0.1:1": "bare.txt: the file does not state the unit of its samples; give it, for example --units=",

@@ -107,6 +107,7 @@ def test_one_line_says_how_many_overturn_and_where(found):
         ),
         ({"levels": [1.0]}, "levels must hold two numbers or more in"),
         ({"angle": [0.0, 0.1]}, "angle must be one number; got [0.0, 0.1]"),
+        ({"polarity": [-1.0, 1.0]}, "polarity must be 1 or -1; got [-1.0, 1.0]"),
         ({"block": None}, "block must be a Block; got None"),
         ({"records": []}, "records must hold ground motions, one at least; got []"),
     ],

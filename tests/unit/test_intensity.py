@@ -179,11 +179,13 @@ REFUSED = {
         "slenderness must be a critical angle in rad for",
     ),
     "polarity 0.5": ({"polarity": 0.5}, {}, ValueError, "polarity must be 1, -1 or [-1, 1]; got 0.5"),
+    "polarity 2": ({"polarity": 2}, {}, ValueError, "polarity must be 1, -1 or [-1, 1]; got 2"),
+    "no polarity": ({"polarity": None}, {}, TypeError, "polarity must be 1, -1 or [-1, 1]; got None"),
     "polarity 0": (
         {"polarity": [-1.0, 0.0, 1.0]},
         {},
         ValueError,
-        "polarity must be 1, -1 or [-1, 1]; got 0.0",
+        "polarity must be 1, -1 or [-1, 1]; got [-1.0, 0.0, 1.0]",
     ),
     "scale 0": ({"level": 0.0}, {}, ValueError, "levels must lie in [1e-09, 1e+06]; got 0.0"),
     "negative scale": (

@@ -17,7 +17,7 @@ from rocking.explorer.fields import Refused
 from rocking.model.files import WriteError
 from rocking.model.text import formatted, formatted_path
 from rocking.model.validation import (
-    WAYS,
+    REMEDIES,
     NoOrbit,
     Refusal,
     TooManyEvents,
@@ -226,9 +226,9 @@ GIVEN = {
 }
 
 
-@pytest.mark.parametrize("name", [name for name in WAYS if WAYS[name].startswith("make one: ")])
+@pytest.mark.parametrize("name", [name for name in REMEDIES if REMEDIES[name].startswith("make one: ")])
 def test_what_is_told_makes_a_value_of_the_kind(name):
-    told = WAYS[name].removeprefix("make one: ").partition(", or ")[0]
+    told = REMEDIES[name].removeprefix("make one: ").partition(", or ")[0]
     assert type(eval(told, {"rk": rk} | GIVEN)) is getattr(rk, name.rpartition(" ")[-1])
 
 
@@ -236,7 +236,7 @@ def test_what_is_told_makes_a_value_of_the_kind(name):
 def test_what_is_given_for_a_system_says_how_it_becomes_one(value):
     with pytest.raises(TypeError, match=r"^system must be a System; got .*\(make one: .*\)$") as caught:
         rk.simulate(value)
-    assert WAYS[f"{type(value).__name__} for System"] in str(caught.value)
+    assert REMEDIES[f"{type(value).__name__} for System"] in str(caught.value)
 
 
 class NoText:

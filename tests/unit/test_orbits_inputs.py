@@ -55,7 +55,7 @@ def test_a_range_beyond_what_a_system_may_have_is_refused(orbit):
 
 
 def test_braces_are_needed_to_follow_them(orbit):
-    with pytest.raises(ValueError, match=r"^brace_angle needs a system with braces; got one without"):
+    with pytest.raises(ValueError, match=r"^brace_angle must be used with a braced system \(give it braces="):
         rk.continue_orbit(orbit, "brace_angle", (0.5, 1))
 
 

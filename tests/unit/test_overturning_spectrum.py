@@ -134,10 +134,16 @@ def test_store_and_executor_give_the_same_dataset(tmp_path):
         ({"system": "one-sine"}, "system must be a System; got 'one-sine'"),
         ({"system": system_with()}, "system must have a pulse as base motion, rk.Pulse; got Harmonic"),
         ({"system": BRACED}, "system must have no braces for this survey"),
-        ({"amplitude": 2.0}, "amplitude must be an axis, an ascending array in [0, 1000]; got 2.0"),
+        (
+            {"amplitude": 2.0},
+            "amplitude must be an axis, an ascending array in [0, 1000]; got 2.0 (such as np.linspace(",
+        ),
         ({"frequency": None}, "frequency must be an axis, an ascending array in [0.001, 1000]; got None"),
         ({"frequency": [2.0, 1.0]}, "frequency must hold two numbers or more in [0.001, 1000], ascending"),
-        ({"restitution": 1.2}, "restitution must be an axis, an ascending array in [0, 1]; got 1.2"),
+        (
+            {"restitution": 1.2},
+            "restitution must be an axis, an ascending array in [0, 1]; got 1.2 (a number is",
+        ),
     ],
 )
 def test_errors_state_what_is_allowed(given, message):

@@ -176,6 +176,15 @@ def test_single_point_is_refused_with_the_way_out():
         rk.rocking_spectrum(RECORDS[0], size=1.0, slenderness=0.2)
 
 
+@pytest.mark.parametrize(
+    "given, missing", [({"size": [1.0, 2.0]}, "slenderness"), ({}, "size and slenderness")]
+)
+def test_spectrum_without_a_block_needs_size_and_slenderness(given, missing):
+    message = f"a rocking spectrum needs {missing} (or give a block, which has both)"
+    with pytest.raises(TypeError, match=f"^{re.escape(message)}$"):
+        rk.rocking_spectrum(RECORDS, **given)
+
+
 def test_motion_of_zeros_moves_no_block():
     found = rk.rocking_spectrum(
         rk.GroundMotion([0.0, 0.0], step=0.1), size=[1.0, 2.0], slenderness=0.2

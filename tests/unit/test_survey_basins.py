@@ -160,7 +160,7 @@ def test_a_basin_map_in_a_store_is_the_same(tmp_path):
     [
         (
             {"angle": [0.0, 1.0], "velocity": 0.5},
-            "velocity must be an axis, an ascending array in [-1000, 1000]; got 0.5",
+            "velocity must be an axis, an ascending array in [-1000, 1000]; got 0.5 (such as np.linspace(",
         ),
         ({"angle": [1.0, 0.0], "velocity": [0.0, 1.0]}, "angle must hold two numbers or more"),
         ({"angle": 1.0, "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
@@ -173,6 +173,14 @@ def test_a_basin_map_in_a_store_is_the_same(tmp_path):
         (
             {"angle": (0, 1), "velocity": (0, 1), "samples": 5, "store": "a"},
             "store must be used without samples",
+        ),
+        (
+            {"angle": (0, 1), "velocity": (0, 1), "samples": 5, "repair": True},
+            "repair must be used with store",
+        ),
+        (
+            {"angle": (0, 1), "velocity": (0, 1), "samples": 5, "repair": "x"},
+            "repair must be a bool; got 'x'",
         ),
         ({"angle": (0, 1), "velocity": (0, 1), "boundary_runs": 0.5}, "boundary_runs must be a whole number"),
     ],

@@ -169,6 +169,14 @@ REFUSED = {
         {"restitution": 0.5},
         "restitution must be an axis, an ascending array in [0, 1]; got 0.5 (a number is that of the system)",
     ),
+    "a number of the start": (
+        {"angle": 0.5},
+        "angle must be an axis, an ascending array in [-1000, 1000]; got 0.5 (a number is that of the initial state)",
+    ),
+    "a set": (
+        {"restitution": {0.5, 0.9}},
+        "restitution must be an axis, an ascending array in [0, 1]; got {0.5, 0.9} (such as np.linspace(start, stop, count))",
+    ),
     "three axes": (
         {"restitution": [0.8, 0.9]},
         (

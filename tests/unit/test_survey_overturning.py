@@ -121,7 +121,14 @@ def test_a_curve_over_restitution_and_period_is_that_of_each():
 @pytest.mark.parametrize(
     "options, message",
     [
-        ({"amplitude": 2.0}, "amplitude must be an axis, an ascending array in [0, 1000]; got 2.0"),
+        (
+            {"amplitude": 2.0},
+            "amplitude must be an axis, an ascending array in [0, 1000]; got 2.0 (such as np.linspace(",
+        ),
+        (
+            {"restitution": 0.9},
+            "restitution must be an axis, an ascending array in [0, 1]; got 0.9 (a number is that of the",
+        ),
         ({"phases": 0}, "phases must be a whole number in [1, 100000]; got 0"),
         (
             {"period": [1.0, 2.0], "frequency": [1.0, 2.0]},

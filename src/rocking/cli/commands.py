@@ -748,6 +748,7 @@ rocking continue --height 2 --width 0.5 --acceleration 4:2 \\
         function="rocking.orbits.frequency_response.frequency_response",
         inputs="inputs.frequency_response",
         report="reports_orbits.FREQUENCY_RESPONSE",
+        progress=True,
         options=(
             *quantities(
                 *(name for name in FORCED if name != "displacement"), kind=ONE_AXIS, varied=FREQUENCIES

@@ -341,8 +341,6 @@ RESULTS: tuple[tuple[str, SI | None, tuple[str, ...]], ...] = (
             *(
                 "peak",
                 "steady_peak",
-                "rest_peak",
-                "rest_steady_peak",
                 "branch_peak",
                 "limit",
                 "line_amplitude",

@@ -83,8 +83,8 @@ class RecordSet(Sequence[GroundMotion]):
         seen: set[str] = set()
         for name in self.names:
             if name in seen:
-                way_out = "attrs.evolve(motion, name=…) gives another name"
-                raise Refusal("records", "have distinct names", f"{name} twice", way_out)
+                remedy = "attrs.evolve(motion, name=…) gives another name"
+                raise Refusal("records", "have distinct names", f"{name} twice", remedy)
             seen.add(name)
         for name, column in self.columns.items():
             if column.shape != (len(self.motions),):

@@ -13,7 +13,7 @@ from rocking.model.block_formulas import Dimensions
 from rocking.model.forcing import Forcing, Harmonic
 from rocking.model.quantity import ANGLE, BRACE_ANGLE, CRITICAL_ANGLE, RESTITUTION, VELOCITY
 from rocking.model.validation import (
-    WAYS,
+    REMEDIES,
     Refusal,
     Text,
     WrongType,
@@ -120,7 +120,7 @@ def _critical_angle(value: float | None) -> float | None:
 
 def _block(value: Any) -> Any:
     if not (value is None or isinstance(value, Dimensions)):
-        raise WrongType("block", "be a Block", value, WAYS["Block"])
+        raise WrongType("block", "be a Block", value, REMEDIES["Block"])
     return value
 
 

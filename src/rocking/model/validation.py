@@ -25,7 +25,7 @@ Value = TypeVar("Value")
 
 MAX_REAL = 1e300
 """Largest size of a finite number in an array: a conversion of units does not overflow."""
-WAYS = {
+REMEDIES = {
     "State": "make one: rk.State(angle=0.1, velocity=0.0)",
     "Harmonic": "make one: rk.Harmonic(amplitude=2.0, period=1.0)",
     "Braces": "make one: rk.Braces(angle=1.0)",
@@ -39,7 +39,7 @@ WAYS = {
     "Pulse for System": "make one: rk.System(pulse, restitution=0.925), or block.system(pulse) in SI units",
     "GroundMotion for System": "make one: rk.Block(height=2.0, width=0.5).system(ground_motion)",
 }
-"""Remedies for an argument of the wrong type, also by what was given for what."""
+"""Remedies for an argument that is missing or of the wrong type, by type, also by what was given for what."""
 
 
 class TooManyEvents(ValueError):
@@ -395,8 +395,10 @@ def instance(name: str, value: Value, kind: type) -> Value:
     """Return `value` if it is an instance of `kind`; TypeError for anything else."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIO" else "a"
-        way = WAYS.get(f"{type(value).__name__} for {kind.__name__}") or WAYS.get(kind.__name__, "")
-        raise WrongType(name, f"be {article} {kind.__name__}", value, way)
+        remedy = REMEDIES.get(f"{type(value).__name__} for {kind.__name__}") or REMEDIES.get(
+            kind.__name__, ""
+        )
+        raise WrongType(name, f"be {article} {kind.__name__}", value, remedy)
     return value
 
 
@@ -447,7 +449,7 @@ def similar(name: str, known: Iterable[str]) -> str | None:
 
 
 def explain(namespace: MutableMapping[str, Any], names: Iterable[str]) -> None:
-    """Let the public functions and classes in a namespace explain a keyword that they do not have.
+    """Let the public functions and classes in a namespace explain calls that do not fit their signature.
 
     A function is replaced in this namespace, and pickled by its name there. A class gets another constructor. Signatures and
     docstrings stay the same.
@@ -461,8 +463,25 @@ def explain(namespace: MutableMapping[str, Any], names: Iterable[str]) -> None:
             value.__init__ = explained(value.__init__)  # type: ignore[method-assign]
 
 
+RENAMED = {
+    ("rocking_spectrum", "scale"): "levels",
+    ("overturning_set", "scales"): "levels",
+    ("overturning_spectrum", "kind"): "system, with an rk.Pulse of that kind",
+    ("proved_share", "found"): "result",
+    **{
+        (function, old): "the quantity by its name, such as amplitude=values"
+        for function in ("orbit_diagram", "response_diagram")
+        for old in ("parameter", "values")
+    },
+}
+"""Arguments of version 0.1 that have another name, by function: what replaces them."""
+
+
 def explained(function: Call) -> Call:
-    """Return the function with a message for an unknown keyword that names the function and the nearest keyword."""
+    """Return the function with messages for a call that does not fit its signature.
+
+    They state what replaces an unknown keyword, how to make a missing argument, and which arguments need a name.
+    """
     if hasattr(function, "__wrapped__"):
         return function
 
@@ -471,23 +490,59 @@ def explained(function: Call) -> Call:
         try:
             return function(*args, **kwargs)
         except TypeError as error:
-            known = inspect.signature(function).parameters
-            wrong = [key for key in kwargs if key not in known]
-            if error.__traceback__.tb_next is not None or not wrong:  # type: ignore[union-attr]
+            if error.__traceback__.tb_next is not None:  # type: ignore[union-attr]
                 raise  # the call itself was right
-            name = function.__qualname__.removesuffix(".__init__").rpartition(".")[-1]
-            raise TypeError(_unknown(name, wrong[0], [key for key in known if key != "self"])) from None
+            message = _of_call(function, args, kwargs)
+            if not message:
+                raise
+            raise TypeError(message) from None
 
     return cast(Call, call)
 
 
-def _unknown(name: str, wrong: str, known: list[str]) -> str:
-    """Return the message for an unknown keyword of a function."""
-    near, all_of_them = similar(wrong, known), ", ".join(known)
-    if len(all_of_them) > MAX_LISTED:
-        all_of_them = all_of_them[:MAX_LISTED].rpartition(", ")[0] + ", …"
-    way = f"did you mean {near!r}?" if near else f"it has: {all_of_them}" if known else "it has none"
-    return f"{name}() has no argument {formatted(wrong)} ({way})"
+def _of_call(function: Callable[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> str:
+    """Return the message for a call that does not fit the signature of a function; "" if that of Python says all."""
+    name = function.__qualname__.removesuffix(".__init__").rpartition(".")[-1]
+    parameters = inspect.signature(function).parameters
+    by_position = [each for each in parameters.values() if each.kind is each.POSITIONAL_OR_KEYWORD]
+    if len(args) > len(by_position):
+        return _too_many(name, args, [each.name for each in by_position], parameters)
+    any_keyword = any(each.kind is each.VAR_KEYWORD for each in parameters.values())
+    unknown = next((key for key in kwargs if key not in parameters and not any_keyword), None)
+    near = unknown and _near(name, unknown, [key for key in parameters if key != "self"])
+    if not near:
+        for each in by_position[len(args) :]:
+            if each.default is each.empty and each.name not in kwargs and each.annotation in REMEDIES:
+                return f"{name}() needs {each.name} ({REMEDIES[each.annotation]})"
+    if unknown is None:
+        return ""
+    return f"{name}() has no argument {formatted(unknown)} ({near or _listed(parameters)})"
+
+
+def _near(function: str, unknown: str, known: list[str]) -> str:
+    """Return what replaces an unknown keyword of a function, or the most similar one; "" if there is none."""
+    if (function, unknown) in RENAMED:
+        return f"since version 0.2 it is {RENAMED[function, unknown]}"
+    near = similar(unknown, known)
+    return f"did you mean {near!r}?" if near else ""
+
+
+def _listed(parameters: Iterable[str]) -> str:
+    """Return the arguments of a function as a remedy; the last ones are left out if there are many."""
+    text = ", ".join(name for name in parameters if name != "self")
+    if len(text) > MAX_LISTED:
+        text = text[:MAX_LISTED].rpartition(", ")[0] + ", …"
+    return f"it has: {text}" if text else "it has none"
+
+
+def _too_many(name: str, args: Sequence[Any], by_position: list[str], parameters: Iterable[str]) -> str:
+    """Return the message for arguments without a name that need one; "" if there is no argument that needs one."""
+    named = [each for each in parameters if each not in by_position]
+    typed = [each for each in args if isinstance(each, str) and each in named]
+    if not named:
+        return ""
+    first = ", ".join(each for each in by_position if each != "self") or "none"
+    return f"{name}() takes these arguments without a name: {first} (give the others by name, such as {(typed or named)[0]}=…)"
 
 
 OWN = ("rocking", "attr", "attrs", "contextlib")

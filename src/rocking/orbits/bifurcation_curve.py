@@ -248,14 +248,10 @@ def _condition(special: SpecialPoint) -> tuple[Chain, Condition]:
         return chain, Condition(kind, -1, IMPACT, 0.0)
     if special._touch is None:
         if special.orbit.impacts or special.orbit.brace_hits:
-            raise ValueError(
-                "special must be a grazing whose contact is located; it is not "
-                "(use that of a branch with another step, or in another parameter)"
-            )
+            remedy = "use that of a branch with another step, or in another parameter"
+            raise Refusal("special", "be a grazing whose contact is located; it is not", remedy=remedy)
         raise Refusal("special", "have an event other than the grazing one to be followed; it has none")
     if touches_again(special._touch, special.name):
-        raise ValueError(
-            "special must be a grazing at one instant, not at several "
-            "(use that of a shorter period, or of the symmetric orbit)"
-        )
+        remedy = "use that of a shorter period, or of the symmetric orbit"
+        raise Refusal("special", "be a grazing at one instant, not at several", remedy=remedy)
     return special._touch

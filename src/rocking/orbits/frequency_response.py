@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.orbit import Mode, Orbit
+from rocking.model.progress import Bar
 from rocking.model.result import Result, along, described
 from rocking.model.system import System
 from rocking.model.validation import (
@@ -21,7 +22,6 @@ from rocking.model.validation import (
     WrongType,
     exactly_one,
     instance,
-    reals,
     refuse_if,
     whole,
     within,
@@ -30,7 +30,7 @@ from rocking.model.verdict import Kind
 from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
-from rocking.orbits.parameter import check_range, check_step, coordinate_of, with_value
+from rocking.orbits.parameter import check_range, check_step, coordinate_of, different_values, with_value
 from rocking.response.classify import classify
 from rocking.theory import symmetric_modes
 
@@ -205,7 +205,7 @@ class FrequencyResponse(ReadOnlyArrays, Result):
         return np.where(np.isnan(self.rest["steady_peak"]), self.rest["peak"], self.rest["steady_peak"])
 
     def __str__(self) -> str:
-        result = "; ".join(_told(n, self.of(n)) for n in self.modes)
+        result = "; ".join(_of_mode(n, self.of(n)) for n in self.modes)
         kinds = Counter(str(kind) for kind in self.rest["kind"])
         rest = ", ".join(f"{number:,} {kind}" for kind, number in kinds.most_common())
         return (
@@ -215,7 +215,7 @@ class FrequencyResponse(ReadOnlyArrays, Result):
         )
 
 
-def _told(n: int, branches: Sequence[Branch]) -> str:
+def _of_mode(n: int, branches: Sequence[Branch]) -> str:
     if not branches:
         return f"(1, {n}) none found"
     symmetric = sum(branch.symmetric for branch in branches)
@@ -238,6 +238,7 @@ def frequency_response(
     modes: Sequence[int] = (1, 3),
     step: float = 0.01,
     max_cycles: int = 10_000,
+    progress: bool = False,
 ) -> FrequencyResponse:
     """Compute the frequency response at one amplitude: branches of the (1, n) orbits, and verdicts on the response from rest.
 
@@ -250,7 +251,8 @@ def frequency_response(
         Slender block on a harmonic base, of any period. Its amplitude is above 0, and its coefficient of restitution in [0.001, 1).
         It has no braces.
     period, frequency : array (n,)
-        Exactly one of them: forcing period T or angular frequency Ω, at least two values, in any order.
+        Exactly one of them: forcing period T or angular frequency Ω. At least two different values, in any order; equal ones
+        count once.
     modes : sequence of int
         Numbers n of forcing cycles per response period: odd, up to 99. Default: (1, 3).
     step : float
@@ -258,6 +260,8 @@ def frequency_response(
     max_cycles : int
         Maximum number of forcing cycles for each response from rest, as in `classify`. A verdict of chaos needs 10⁴.
         Default: 10,000.
+    progress : bool
+        Whether to show the progress on stderr. Default: False.
 
     Returns
     -------
@@ -305,10 +309,14 @@ def frequency_response(
     followed = tuple(dict.fromkeys(_odd(n) for n in _sequence(modes)))
     step = check_step(step)
     systems = [with_value(system, parameter, value) for value in values.tolist()]
-    rest = _from_rest(systems, max_cycles)  # first, because it rejects an invalid max_cycles
-    branches = [
-        branch for n in followed for branch in _branches(systems, n, parameter, values[[0, -1]], step)
-    ]
+    total = len(systems) * (1 + len(followed))
+    with Bar(total, "frequency response", shown=instance("progress", progress, bool)) as bar:
+        rest = _from_rest(systems, max_cycles, bar)  # first, because it rejects an invalid max_cycles
+        branches = [
+            branch
+            for n in followed
+            for branch in _branches(systems, n, parameter, values[[0, -1]], step, bar)
+        ]
     return FrequencyResponse(
         system=system,
         modes=followed,
@@ -320,9 +328,7 @@ def frequency_response(
 
 
 def _values(name: str, values: Any) -> NDArray[np.float64]:
-    ordered = np.unique(reals(name, values))
-    if not 2 <= len(ordered) <= MAX_VALUES or not np.isfinite(ordered).all():
-        raise Refusal(name, f"be 2 to {MAX_VALUES:,} different finite numbers", values)
+    ordered = different_values(name, values, 2, MAX_VALUES)
     check_range(name, (float(ordered[0]), float(ordered[-1])), name)
     return ordered
 
@@ -349,7 +355,7 @@ def _odd(n: int) -> int:
 
 
 def _branches(
-    systems: Sequence[System], n: int, parameter: str, ends: np.ndarray, step: float
+    systems: Sequence[System], n: int, parameter: str, ends: np.ndarray, step: float, bar: Bar
 ) -> list[Branch]:
     """Return all branches of the (1, n) orbits: each symmetric one, followed by the asymmetric ones that bifurcate from it."""
     bounds = float(ends[0]), float(ends[1])
@@ -364,6 +370,7 @@ def _branches(
             if orbit is not None:
                 symmetric.append(continue_orbit(orbit, parameter, bounds, step))
                 known += _phases(symmetric[-1], value)
+        bar.advance(1)
     return [one for branch in symmetric for one in (branch, *_born(branch, bounds, step))]
 
 
@@ -398,9 +405,12 @@ def _orbit_of_mode(mode: Mode, system: System, parameter: str) -> Orbit | None:
     return orbit_of(chain, parameter, there.phases, there.trace, there.determinant)
 
 
-def _from_rest(systems: Sequence[System], max_cycles: int) -> NDArray[np.void]:
+def _from_rest(systems: Sequence[System], max_cycles: int, bar: Bar) -> NDArray[np.void]:
+    verdicts = []
     with ThreadPoolExecutor() as pool:
-        verdicts = list(pool.map(lambda system: classify(system, max_cycles=max_cycles), systems))
+        for verdict in pool.map(lambda system: classify(system, max_cycles=max_cycles), systems):
+            verdicts.append(verdict)
+            bar.advance(1)
     rest = np.empty(len(systems), REST)
     rest["kind"] = [Kind(verdict.kind).value for verdict in verdicts]
     rest["period"] = [verdict.period or 0 for verdict in verdicts]

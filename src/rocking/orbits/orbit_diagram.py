@@ -179,8 +179,9 @@ def orbit_diagram(
         Block, base motion and braces. The values of the parameter replace its own.
     start : State, optional
         Initial state (Θ, Θ') at τ = 0 of the first motion, or of each motion with ``sweep="rest"``. Default: at rest.
-    amplitude, period, frequency, phase, restitution, brace_angle, brace_restitution, critical_angle : array (n,)
-        Exactly one of them, the varied parameter: its values in any order.
+    amplitude, period, frequency, phase, restitution, brace_angle, brace_restitution, critical_angle : float or array (n,)
+        Exactly one of them, the varied parameter: a number, or values in any order. Equal ones count once. A sweep follows them
+        in ascending or descending order.
     sweep : {"both", "up", "down", "rest"}
         Direction of the sweep; "rest": no sweep, each motion begins at `start`. Default: "both".
     transient : int
@@ -245,18 +246,19 @@ def orbit_diagram(
         MAX_POINTS,
     )
     start = State() if start is None else start
-    ways = SWEEPS[one_of("sweep", sweep, tuple(SWEEPS))]
+    sweeps = SWEEPS[one_of("sweep", sweep, tuple(SWEEPS))]
     transient = whole("transient", transient, 0, MAX_CYCLES)
-    cycles = whole("cycles", cycles, 1, max(MAX_POINTS // (len(ways) * len(ordered)), 1))
+    cycles = whole("cycles", cycles, 1, max(MAX_POINTS // (len(sweeps) * len(ordered)), 1))
     section_phase = system.periodic.phase if section_phase is None else section_phase
     section_phase = PHASE.checked(section_phase, "section_phase")
     rows = np.array([_row(with_value(system, parameter, value), start) for value in ordered.tolist()])
-    lanes = _lanes(rows, ways, cycles)
-    total = len(ordered) * len(ways)
+    lanes = _lanes(rows, sweeps, cycles)
+    total = len(ordered) * len(sweeps)
     with Bar(total, "orbit diagram", shown=progress) as bar:
-        _run(lanes, start, "rest" not in ways, transient, section_phase, bar)
+        _run(lanes, start, "rest" not in sweeps, transient, section_phase, bar)
     points, peak, statuses = (
-        np.stack([_ascending(lanes, way, name) for way in ways]) for name in ("section", "peak", "statuses")
+        np.stack([_ascending(lanes, sweep, name) for sweep in sweeps])
+        for name in ("section", "peak", "statuses")
     )
     if (statuses == march.CROWDED).any():
         value = ordered[(statuses == march.CROWDED).any(axis=0)][0]
@@ -268,7 +270,7 @@ def orbit_diagram(
         system=system,
         parameter=parameter,
         values=ordered,
-        sweeps=ways,
+        sweeps=sweeps,
         points=points,
         overturned=statuses == march.OVERTURNED,
         peak=peak,
@@ -288,22 +290,24 @@ def _row(system: System, start: State) -> tuple[float, ...]:
 class _Lane(NamedTuple):
     """Systems in the order in which one thread processes them, with the output arrays."""
 
-    way: str
+    sweep: str
     rows: NDArray[np.float64]
     section: NDArray[np.float64]
     peak: NDArray[np.float64]
     statuses: NDArray[np.int64]
 
 
-def _lanes(rows: np.ndarray, ways: tuple[str, ...], cycles: int) -> list[_Lane]:
+def _lanes(rows: np.ndarray, sweeps: tuple[str, ...], cycles: int) -> list[_Lane]:
     """Return one lane for each sweep; independent motions are distributed among the processors."""
-    if ways == ("rest",):
+    if sweeps == ("rest",):
         parts = [("rest", part) for part in np.array_split(rows, min(os.cpu_count() or 1, len(rows)))]
     else:
-        parts = [(way, np.ascontiguousarray(rows[:: -1 if way == "down" else 1])) for way in ways]
+        parts = [(sweep, np.ascontiguousarray(rows[:: -1 if sweep == "down" else 1])) for sweep in sweeps]
     return [
-        _Lane(way, part, np.empty((len(part), cycles, 2)), np.empty(len(part)), np.empty(len(part), np.int64))
-        for way, part in parts
+        _Lane(
+            sweep, part, np.empty((len(part), cycles, 2)), np.empty(len(part)), np.empty(len(part), np.int64)
+        )
+        for sweep, part in parts
     ]
 
 
@@ -332,7 +336,7 @@ def _run(
             bar.advance(sum(len(lane.rows[done]) for lane in lanes))
 
 
-def _ascending(lanes: list[_Lane], way: str, name: str) -> np.ndarray:
+def _ascending(lanes: list[_Lane], sweep: str, name: str) -> np.ndarray:
     """Return one output of a sweep, over ascending values."""
-    values = np.concatenate([getattr(lane, name) for lane in lanes if lane.way == way])
-    return values[::-1] if way == "down" else values
+    values = np.concatenate([getattr(lane, name) for lane in lanes if lane.sweep == sweep])
+    return values[::-1] if sweep == "down" else values

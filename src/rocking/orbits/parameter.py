@@ -12,13 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.model.forcing import Harmonic
 from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.system import Braces, System, quantities
-from rocking.model.validation import Refusal, exactly_one, pair, reals, refuse_if, within
+from rocking.model.validation import Refusal, Text, WrongType, exactly_one, pair, reals, refuse_if, within
 from rocking.model.verdict import Kind
 
-# Argument of a system without which a parameter has no value.
-MISSING = dict.fromkeys(("brace_angle", "brace_restitution"), "braces=Braces(…)") | {
-    "critical_angle": "critical_angle=…"
-}
+# System that has a value of a parameter, and the argument that makes it.
+NEEDED = dict.fromkeys(
+    ("brace_angle", "brace_restitution"), ("a braced system", "braces=rk.Braces(angle=1.0)")
+) | {"critical_angle": ("a system with a critical angle", "critical_angle=0.25")}
 # Ranges of the model. Towards a coefficient of restitution of 0, an orbit cannot be continued.
 ALLOWED = {name: each.range for name, each in SYSTEM_QUANTITIES.items()} | dict.fromkeys(
     ("restitution", "brace_restitution"), (1e-3, 1.0)
@@ -31,10 +31,8 @@ def value_of(system: System, parameter: str) -> float:
     """Return the value of a parameter of a system."""
     result = quantities(system)
     if parameter not in result:
-        needs = "a critical angle" if parameter == "critical_angle" else "braces"
-        raise ValueError(
-            f"{parameter} needs a system with {needs}; got one without (give {MISSING[parameter]})"
-        )
+        needed, argument = NEEDED[parameter]
+        raise WrongType(parameter, f"be used with {needed}", remedy=f"give it {argument}")
     return result[parameter]
 
 
@@ -56,12 +54,25 @@ def with_value(system: System, parameter: str, value: float) -> System:
 
 
 def varied_parameter(values: Mapping[str, ArrayLike | None], most: int) -> tuple[str, NDArray[np.float64]]:
-    """Return the only parameter that is not None, and its different values, ascending: finite numbers, at most `most`."""
+    """Return the only parameter that is not None, and its different values, ascending: one at least, at most `most`."""
     name = exactly_one(**values)
-    ordered = np.unique(reals(name, values[name]))
-    if not 0 < len(ordered) <= most or not np.isfinite(ordered).all():
-        raise Refusal(name, f"be 1 to {most:,} finite numbers", values[name])
-    return name, ordered
+    return name, different_values(name, values[name], 1, most)
+
+
+def different_values(name: str, values: Any, fewest: int, most: int) -> NDArray[np.float64]:
+    """Return the different values of a parameter, ascending; TypeError or ValueError if they are no finite numbers in a row."""
+    array = np.asarray(reals(name, values))
+    if array.ndim > 1:
+        allowed = "be an array (n,)" if fewest > 1 else "be a number or an array (n,)"
+        raise Refusal(name, allowed, Text(f"an array of shape {array.shape}"))
+    refuse_if(not np.isfinite(array).all(), name, "hold finite numbers", values)
+    ordered = np.unique(array)
+    if len(ordered) < fewest:
+        least = "one number" if fewest == 1 else f"{fewest} different numbers"
+        raise Refusal(name, f"hold {least} or more", values)
+    if len(ordered) > most:
+        raise Refusal(name, f"hold {most:,} different numbers at most", Text(f"{len(ordered):,}"))
+    return ordered
 
 
 def fixed_quantities(system: System, *varied: str) -> dict[str, float]:

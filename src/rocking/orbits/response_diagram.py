@@ -194,8 +194,8 @@ def response_diagram(
         Block, base motion and braces. The values of the parameter replace its own.
     start : State, optional
         Initial state (Θ, Θ') at τ = 0 of each motion. Default: at rest.
-    amplitude, period, frequency, phase, restitution, brace_angle, brace_restitution, critical_angle : array (n,)
-        Exactly one of them, the varied parameter: its values in any order, at most 100,000.
+    amplitude, period, frequency, phase, restitution, brace_angle, brace_restitution, critical_angle : float or array (n,)
+        Exactly one of them, the varied parameter: a number, or values in any order, at most 100,000. Equal ones count once.
     max_cycles, max_period : int
         As in `classify`. Default: 100,000 and 64.
     progress : bool

@@ -102,10 +102,10 @@ SYMBOLS = {
 }
 
 
-def level_label(scale: Any) -> str:
+def level_label(level: Any) -> str:
     """Return the label of the axis of the levels of a dataset: description, symbol and unit."""
-    symbol, unit = scale.attrs["symbol"], scale.attrs.get("units", "1")
-    name = scale.attrs["long_name"]
+    symbol, unit = level.attrs["symbol"], level.attrs.get("units", "1")
+    name = level.attrs["long_name"]
     if "/" in symbol:
         name = ""
     elif symbol in name:

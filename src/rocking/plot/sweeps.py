@@ -21,7 +21,7 @@ from rocking.plot import branch_lines, figures, style
 from rocking.plot.axes import parameter, units_of
 from rocking.plot.style import COLOURS, LOOKS, Look, looks
 
-WAYS = {
+SWEEPS = {
     "up": ("swept up", style.MOTION),
     "down": ("swept down", style.IMPACT),
     "rest": ("from the initial state", style.MOTION),
@@ -106,7 +106,7 @@ def orbit_diagram(
     ]
     ax = style.own(ax, height=3.0)
     sizes = [
-        _points(ax, result, row, way, quantity, across, upright) for row, way in enumerate(result.sweeps)
+        _points(ax, result, row, sweep, quantity, across, upright) for row, sweep in enumerate(result.sweeps)
     ]
     for line in ax.lines[-len(sizes) :]:
         line.set_markersize(min(sizes))
@@ -122,9 +122,9 @@ def orbit_diagram(
     return ax
 
 
-def _points(ax: Axes, result: OrbitDiagram, row: int, way: str, quantity: str, across, upright) -> float:
+def _points(ax: Axes, result: OrbitDiagram, row: int, sweep: str, quantity: str, across, upright) -> float:
     """Draw the points of one sweep; return the size of their marks."""
-    name, colour = WAYS[way]
+    name, colour = SWEEPS[sweep]
     heights = (
         result.peak[row][:, None]
         if quantity == "peak"
@@ -143,7 +143,7 @@ def _points(ax: Axes, result: OrbitDiagram, row: int, way: str, quantity: str, a
         color=colour,
         rasterized=count > style.MAX_MARKS,
         label=name,
-        gid=way,
+        gid=sweep,
         zorder=2.0 - 0.1 * row,
     )
     return size
@@ -187,11 +187,11 @@ def _bars(ax: Axes, result: OrbitDiagram, across) -> None:
     """Draw one bar per sweep below the points, along the values at which the block overturned."""
     low, high = ax.get_ylim()
     ax.set_ylim(low - ROOM * (high - low), high)
-    for row, way in enumerate(result.sweeps):
+    for row, sweep in enumerate(result.sweeps):
         if not result.overturned[row].any():
             continue
         ends = branch_lines.spans(result.values, result.overturned[row])
-        edge = WAYS[way][1] if len(result.sweeps) > 1 else style.INK
+        edge = SWEEPS[sweep][1] if len(result.sweeps) > 1 else style.INK
         ax.plot(
             across(ends),
             np.full(len(ends), BAR * (row + 0.6)),
@@ -200,8 +200,8 @@ def _bars(ax: Axes, result: OrbitDiagram, across) -> None:
             linewidth=THICK,
             solid_capstyle="projecting",
             path_effects=[Stroke(linewidth=THICK + EDGE, foreground=edge), Normal()],
-            label="overturned" + (f", {way}" if len(result.sweeps) > 1 else ""),
-            gid=f"overturned {way}",
+            label="overturned" + (f", {sweep}" if len(result.sweeps) > 1 else ""),
+            gid=f"overturned {sweep}",
         )
 
 

@@ -210,7 +210,7 @@ def read_record_set(
         path = Path(source)
         resolve_path("source", path)
         if path.is_dir():
-            return _set(_of_files(_folder(path), values, _way_out_of(path)), path.name)
+            return _set(_of_files(_folder(path), values, _folder_remedy(path)), path.name)
         if is_table(path):
             return _of_table(path, values)
         return _set(_of_files([path], values), path.name)
@@ -256,7 +256,7 @@ def _folder(path: Path) -> list[Path]:
     return [each for each in files if each.name not in others]
 
 
-def _way_out_of(path: Path) -> str:
+def _folder_remedy(path: Path) -> str:
     return (
         f"; if it is no record, move it, or list the record files instead of the folder {path.name or path}"
     )
@@ -276,7 +276,7 @@ def _of_files(paths: Sequence[Path], values: dict[str, Any], remedy: str = "") -
 
 
 def _of_several(error: RecordError) -> str:
-    """Return the way out for an argument that suits some files and not others; empty for another error."""
+    """Return the remedy for an argument that suits some files and not others; empty for another error."""
     for name in ("units", "step"):
         if re.search(rf"(do not give {name}|for example {name}=\S+)$", str(error)):
             return f"; a table with a column {name!r} gives it for each file"

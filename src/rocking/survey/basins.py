@@ -21,16 +21,16 @@ from rocking.survey.attractors import destination, label_attractors, make_attrac
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.run_survey import run_survey
+from rocking.survey.run_survey import check_repair, run_survey
 from rocking.survey.spec import (
     HarmonicSpec,
     Points,
     by_period,
     coordinate,
-    fixed_quantities,
     harmonic_spec,
     points,
     points_of,
+    system_quantities,
 )
 from rocking.survey.uncertainty_exponent import WIDTHS, Boundaries
 from rocking.survey.verdict_measures import interval_variables, outcome
@@ -143,6 +143,7 @@ def basin_map(
     else:
         if store is not None:
             raise WrongType("store", "be used without {samples}, because it holds a grid", str(store))
+        check_repair(store, repair=repair)
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
         reach = ANGLE.range[1] if system.braces is None else system.braces.angle
         check_between(max(ends["angle"], key=abs), reach)
@@ -279,7 +280,7 @@ def safe_basin(
     (('amplitude',), 3.6878)
     """
     measure = outcome(max_cycles, max_period, SAFE_BASIN)
-    spec = harmonic_spec(fixed_quantities(system), {"amplitude": amplitude}, 1, "a safe basin")
+    spec = harmonic_spec(system_quantities(system), {"amplitude": amplitude}, 1, "a safe basin")
     reach = ANGLE.range if system.braces is None else (-system.braces.angle, system.braces.angle)
     low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
     starts = generator(seed).uniform(low, high, (whole("samples", samples, 1, MAX_SAMPLES), 2))

@@ -66,7 +66,8 @@ def fragility(
     intensity : str
         Intensity measure of the levels, as in `rocking_spectrum`. Default: "pga", in m/s².
     limits : float or array (k,)
-        Limits of |Θ| in (0, 10], ascending. Overturning, an infinite limit, always follows. Default: 0.1 and 0.5.
+        Limits of |Θ| in (0, 10], ascending. Overturning, an infinite limit, always follows; with ``[]`` it is alone.
+        Default: 0.1 and 0.5.
     samples : int
         Number of samples of an uncertain block per record, in [1, 10⁴]. Default: 1.
     height_spread, width_spread : float

@@ -13,10 +13,9 @@ from rocking.model.block import Block, block_attributes
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import IncrementalDynamicAnalysis
 from rocking.model.record_set import RecordSet, record_set
-from rocking.model.validation import WrongType, instance
 from rocking.survey.ending_measures import ending
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import MotionSpec, is_axis, motion_spec
+from rocking.survey.spec import MotionSpec, check_one_block, checked_polarity, motion_spec
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -113,13 +112,7 @@ def block_spec(
 
     With ``one_level``, a single level is allowed. It is not an axis of the survey.
     """
-    instance("block", block, Block)
-    for name, value in {"angle": angle, "polarity": polarity}.items():
-        if is_axis(value):
-            raise WrongType(name, "be one number", value)
-    if not is_axis(levels):
-        remedy = "such as np.linspace(1, 10, 19)"
-        raise WrongType("levels", "be an array of levels, ascending", levels, remedy)
+    check_one_block(block, levels, angle)
     if one_level and np.shape(levels) == (1,):
         levels = np.asarray(levels).item()
     return motion_spec(
@@ -129,7 +122,7 @@ def block_spec(
             "slenderness": block.critical_angle,
             "restitution": block.restitution,
             "angle": angle,
-            "polarity": polarity,
+            "polarity": checked_polarity(polarity, one=True),
             "level": levels,
         },
         intensity=intensity,

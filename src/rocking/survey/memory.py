@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.model.package import VERSION
+from rocking.model.validation import Statement
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Level, Tile, finest
@@ -83,9 +84,10 @@ def check_fits(spec: SurveySpec, measure: Measurement) -> None:
     """Raise ValueError for a survey that exceeds the memory."""
     needed = spec.points * sum(np.dtype(each.dtype).itemsize for each in measure.variables)
     if needed > SHARE * memory_size():
-        raise ValueError(
-            f"{spec.points:,} points take {needed / 1e9:.3g} GB, too much for the memory that this process may use, "
-            f"{memory_size() / 1e9:.3g} GB (give store, a folder for the results)"
+        raise Statement(
+            f"{spec.points:,} points",
+            f"take {needed / 1e9:.3g} GB, too much for the memory that this process may use, {memory_size() / 1e9:.3g} GB",
+            remedy="give {store}, a folder for the results",
         )
 
 

@@ -17,7 +17,14 @@ from rocking.survey.measurement import Measurement
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import sampled
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import HarmonicSpec, coordinate, fixed_quantities, harmonic_spec, points
+from rocking.survey.spec import (
+    HarmonicSpec,
+    coordinate,
+    harmonic_spec,
+    points,
+    quantity_axis,
+    system_quantities,
+)
 from rocking.survey.verdict_measures import outcome
 from rocking.theory import heteroclinic_amplitude
 
@@ -174,12 +181,12 @@ def overturning_amplitude(
     count = whole("phases", phases, 1, MAX_PHASES)
     measure = outcome(max_cycles, max_period, TITLE)
     turned = np.arange(count) * (np.pi / count)
-    fixed = fixed_quantities(system) | {"phase": 0.0}
+    fixed = system_quantities(system) | {"phase": 0.0}
     refuse_if(
         system.braces is not None, "system", "have no braces: between them a block does not overturn", system
     )
     axes = {
-        "amplitude": SCANNED if amplitude is None else amplitude,
+        "amplitude": quantity_axis("amplitude", SCANNED if amplitude is None else amplitude),
         "restitution": restitution,
         "phase": turned if count > 1 else None,
         "frequency": frequency,

@@ -14,21 +14,20 @@ from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.package import VERSION
 from rocking.model.progress import Bar
-from rocking.model.quantity import ANGLE
+from rocking.model.quantity import ANGLE, LEVEL
 from rocking.model.record_results import SWITCH_ROW, OverturningSet, intervals_of
 from rocking.model.record_set import Intensity, RecordSet, intensity_of, record_set
 from rocking.model.system import MODELS
-from rocking.model.validation import Refusal, instance, one_of, within
+from rocking.model.validation import instance, one_of
 from rocking.survey.ending_measures import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled
 from rocking.survey.incremental_dynamic_analysis import with_names
 from rocking.survey.measurement import Arrays
 from rocking.survey.run_survey import count_when_done, engine
-from rocking.survey.spec import MAX_LEVEL, axis
+from rocking.survey.spec import axis, check_one_block, checked_polarity
 
 if TYPE_CHECKING:
     import xarray as xr
 
-RANGE = (1e-9, MAX_LEVEL)
 KEPT = ("outcome", "certified", "impacts_since_rest")
 """Variables over the levels of the grid."""
 COLUMNS = {
@@ -131,17 +130,17 @@ def overturning_set(
     >>> result.intervals().shape[1], bool(result.lowest[0] > 1)
     (2, True)
     """
-    chosen, block = record_set(records), instance("block", block, Block)
-    levels = axis("levels", levels, RANGE)
+    chosen = record_set(records)
+    check_one_block(block, levels, angle)
+    levels = axis("levels", levels, LEVEL.range)
     angle = ANGLE.checked(angle)
-    if within("polarity", polarity, -1.0, 1.0) not in (-1.0, 1.0):
-        raise Refusal("polarity", "be 1 or -1", polarity)
+    polarity = float(checked_polarity(polarity, one=True))
     measure, values = intensity_of(intensity, chosen)
     if executor is not None:
         instance("executor", executor, Executor)
     full = one_of("model", model, MODELS) == "full"
     work = [
-        Work(motion, measure, value, block, angle, float(polarity), full)
+        Work(motion, measure, value, block, angle, polarity, full)
         for motion, value in zip(chosen, values.tolist(), strict=True)
     ]
     progress = instance("progress", progress, bool)
@@ -154,7 +153,7 @@ def overturning_set(
         finally:
             for future in futures:
                 future.cancel()
-    options = {"intensity": intensity, "angle": angle, "polarity": float(polarity), "model": model}
+    options = {"intensity": intensity, "angle": angle, "polarity": polarity, "model": model}
     return OverturningSet(_dataset(scans, levels, measure, chosen, options), chosen, block)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from rocking.model.survey_results import ParametricMap
 from rocking.model.system import State, System
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import fixed_quantities, fixed_start, harmonic_spec
+from rocking.survey.spec import fixed_start, harmonic_spec, system_quantities
 from rocking.survey.verdict_measures import response
 
 
@@ -107,7 +107,7 @@ def parametric_map(
     (('amplitude', 'period'), 0.925)
     """
     spec = harmonic_spec(
-        fixed_quantities(system) | fixed_start(start),
+        system_quantities(system) | fixed_start(start),
         {
             "amplitude": amplitude,
             "period": period,

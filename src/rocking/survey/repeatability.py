@@ -31,7 +31,7 @@ from rocking.survey.random_points import (
     spread,
 )
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import Points, fixed_quantities, fixed_start, harmonic_spec, points_of
+from rocking.survey.spec import Points, fixed_start, harmonic_spec, points_of, system_quantities
 from rocking.survey.verdict_measures import KIND, response, verdicts
 
 Name = TypeVar("Name", bound=str)
@@ -120,7 +120,7 @@ def repeatability(
         start,
         off,
         _shares(kinds, unknown, count),
-        _shares(Counter(_told(*each) for each in zip(*columns, strict=True)), unknown, count),
+        _shares(Counter(_response(*each) for each in zip(*columns, strict=True)), unknown, count),
     )
 
 
@@ -131,7 +131,7 @@ def _shares(counts: Mapping[Name, int], unknown: int, of: int) -> dict[Name, Sha
     return shares | {name: Share(unknown, of) for name in counts if name == Kind.UNDETERMINED and unknown}
 
 
-def _told(kind: int, period: int, symmetric: int, impacts: int) -> str:
+def _response(kind: int, period: int, symmetric: int, impacts: int) -> str:
     """Return a short description of a response."""
     if kind != kernel.PERIODIC:
         return str(KINDS[kind])
@@ -220,7 +220,7 @@ def repeatability_map(
     (16, ('amplitude', 'period'))
     """
     spec = harmonic_spec(
-        fixed_quantities(system) | fixed_start(start),
+        system_quantities(system) | fixed_start(start),
         {
             "amplitude": amplitude,
             "period": period,

@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model.forcing import Harmonic
 from rocking.model.progress import Bar
 from rocking.model.proof import ProvedShare
+from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.share import Share
 from rocking.model.survey_results import ChaosShare, ParametricMap, check_survey
-from rocking.model.system import NO_BRACES, Braces, State, System
+from rocking.model.system import NO_BRACES, State, System, system_of
 from rocking.model.validation import Refusal, instance, whole
 from rocking.model.verdict import Kind
 from rocking.proof.prove import check_provable
 from rocking.response.classify import KINDS, classify
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.spec import HarmonicSpec, coordinate, fixed_quantities, points, quantity_axis
+from rocking.survey.spec import HarmonicSpec, coordinate, points, quantity_axis, system_quantities
 from rocking.survey.verdict_measures import interval_variables, outcome
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def chaos_share(
     ('restitution', 'response')
     """
     measure = outcome(max_cycles, max_period, TITLE)
-    quantities = fixed_quantities(system)
+    quantities = system_quantities(system)
     spans = {"period": span("period", period), "amplitude": span("amplitude", amplitude)}
     fixed = {
         name: value for name, value in quantities.items() if name not in (*spans, "frequency", "restitution")
@@ -105,7 +105,7 @@ def chaos_share(
     if restitution is None:
         values = np.array([system.restitution])
     else:
-        values = quantity_axis("restitution", restitution)
+        values = quantity_axis("restitution", restitution, "the system")
     count = whole("samples", samples, 1, MAX_SAMPLES)
     random = generator(seed)
     counts = []
@@ -151,19 +151,6 @@ def _summed_up(
 
 
 MAX_POINTS = 100_000
-QUANTITIES = (
-    "amplitude",
-    "period",
-    "frequency",
-    "phase",
-    "restitution",
-    "brace_angle",
-    "brace_restitution",
-    "critical_angle",
-    "angle",
-    "velocity",
-)
-"""Quantities of a map, as attributes or as coordinates."""
 
 
 def proved_share(result: ParametricMap | Dataset, points: int = 300, seed: int = 0) -> ProvedShare:
@@ -239,17 +226,9 @@ def _point(data: Dataset, place: dict[Any, int]) -> tuple[System, State]:
     """Return the system and the initial state at a point of a map."""
     here = data.isel(place)
     values: dict[str, float] = {"phase": 0.0, "angle": 0.0, "velocity": 0.0, **NO_BRACES}
-    for name in QUANTITIES:
+    for name in SYSTEM_QUANTITIES:
         if name in here.coords:
             values[name] = float(here.coords[name])
         elif name in data.attrs:
             values[name] = float(data.attrs[name])
-    clock = {name: values[name] for name in ("period", "frequency") if name in values}
-    forcing = Harmonic(values["amplitude"], phase=values["phase"], **clock)
-    braces = (
-        Braces(values["brace_angle"], values["brace_restitution"])
-        if np.isfinite(values["brace_angle"])
-        else None
-    )
-    system = System(forcing, values["restitution"], braces, values.get("critical_angle", 0.0) or None)
-    return system, State(values["angle"], values["velocity"])
+    return system_of(values), State(values["angle"], values["velocity"])

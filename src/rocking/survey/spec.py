@@ -13,7 +13,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.kernels.forcing import parameters as numbers
-from rocking.model.block import INERTIA_RATIOS, RECTANGLE
+from rocking.model.block import INERTIA_RATIOS, RECTANGLE, Block
 from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
 from rocking.model.forcing import SINES, Pulse
 from rocking.model.ground_motion import GroundMotion
@@ -38,6 +38,7 @@ from rocking.model.validation import (
     WrongType,
     exactly_one,
     instance,
+    number,
     one_of,
     reals,
     refuse_if,
@@ -116,8 +117,8 @@ def number_or_axis(name: str, value: Any, span: tuple[float, float]) -> float | 
         return axis(name, value, span)
     if isinstance(value, str):
         low, high = span
-        way_out = "an axis is an array, such as np.linspace(start, stop, count)"
-        raise WrongType(name, f"be a real number in [{low:.6g}, {high:.6g}] or an array", value, way_out)
+        remedy = "an axis is an array, such as np.linspace(start, stop, count)"
+        raise WrongType(name, f"be a real number in [{low:.6g}, {high:.6g}] or an array", value, remedy)
     return within(name, value, *span)
 
 
@@ -203,8 +204,11 @@ def harmonic_spec(fixed: Mapping[str, float], axes: Mapping[str, Any], count: in
     ValueError
         If a value lies outside its range.
     """
+    all_vary = len(axes) == count
     checked = {
-        name: quantity_axis(name, axes[name]) for name in SYSTEM_QUANTITIES if axes.get(name) is not None
+        name: quantity_axis(name, axes[name], "" if all_vary else _owner(name))
+        for name in SYSTEM_QUANTITIES
+        if axes.get(name) is not None
     }
     if len(checked) != count:
         remedy = "the others are those of the system" if len(checked) > count else ""
@@ -225,7 +229,7 @@ def harmonic_spec(fixed: Mapping[str, float], axes: Mapping[str, Any], count: in
     return spec
 
 
-def fixed_quantities(system: System) -> dict[str, float]:
+def system_quantities(system: System) -> dict[str, float]:
     """Return the quantities of a system on a harmonic base; of period and frequency, the one that its forcing was made from."""
     time, value = instance("system", system, System).periodic.given
     return {time: value} | {name: each for name, each in by_period(system).items() if name != "period"}
@@ -237,18 +241,42 @@ def fixed_start(start: State | None) -> dict[str, float]:
     return {name: SYSTEM_QUANTITIES[name].checked(getattr(start, name)) for name in START}
 
 
-def quantity_axis(name: str, values: Any) -> np.ndarray:
-    """Check an axis of one quantity."""
+def _owner(name: str) -> str:
+    return "the initial state" if name in START else "the system"
+
+
+def quantity_axis(name: str, values: Any, owner: str = "") -> np.ndarray:
+    """Check an axis of one quantity; `owner` is what has its value if it does not vary, "" if it always varies."""
     low, high = SYSTEM_QUANTITIES[name].range
     if not is_axis(values):
         rule = f"be an axis, an ascending array in [{low:.6g}, {high:.6g}]"
-        remedy = (
-            "such as np.linspace(start, stop, count)"
-            if isinstance(values, str)
-            else "a number is that of the system"
-        )
+        is_number = owner and number(values) is not None
+        remedy = f"a number is that of {owner}" if is_number else "such as np.linspace(start, stop, count)"
         raise WrongType(name, rule, values, remedy)
     return axis(name, values, (low, high))
+
+
+def check_one_block(block: Block, levels: Any, angle: Any) -> None:
+    """Check the arguments of a survey of one block: an array of levels, and one angle; raises TypeError."""
+    instance("block", block, Block)
+    if is_axis(angle):
+        raise WrongType("angle", "be one number", angle)
+    if not is_axis(levels):
+        remedy = "such as np.linspace(1, 10, 19)"
+        raise WrongType("levels", "be an array of levels, ascending", levels, remedy)
+
+
+def checked_polarity(polarity: Any, *, one: bool = False) -> float | np.ndarray:
+    """Check a polarity, one number or both; raises TypeError or ValueError."""
+    allowed = "be 1 or -1" if one else "be 1, -1 or [-1, 1]"
+    try:
+        values = reals("polarity", polarity)
+    except TypeError:
+        raise WrongType("polarity", allowed, polarity) from None
+    both = not one and np.array_equal(values, [-1.0, 1.0])
+    if not both and (np.ndim(values) > 0 or abs(values) != 1.0):
+        raise Refusal("polarity", allowed, polarity)
+    return values
 
 
 def _counted(count: int) -> str:
@@ -296,7 +324,6 @@ def _within_a_turn(phases: np.ndarray) -> np.ndarray:
     return np.array([numbers.within_a_turn(phase) for phase in distinct.tolist()])[places]
 
 
-MAX_LEVEL = 1e6
 SLENDERNESSES = 1e-4, 1.57
 """Range of the critical angle, rad."""
 
@@ -411,13 +438,14 @@ def motion_spec(
     if model == "full":
         spans["slenderness"] = CRITICAL_ANGLE.range
     checked: dict[str, Any] = {
-        name: number_or_axis("levels" if name == "level" else name, arguments.get(name), span)
+        name: checked_polarity(arguments.get(name))
+        if name == "polarity"
+        else number_or_axis("levels" if name == "level" else name, arguments.get(name), span)
         for name, span in spans.items()
         if arguments.get(name) is not None or name != "restitution"
     }
     axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
     fixed = {name: value for name, value in checked.items() if name not in axes}
-    _check_polarity(checked["polarity"])
     fixed["inertia_ratio"] = within("inertia_ratio", inertia_ratio, *INERTIA_RATIOS)
     if "restitution" not in checked:
         squattest = float(np.max(checked["slenderness"]))
@@ -441,12 +469,6 @@ def motion_spec(
         digest=records.digest,
         model=model,
     )
-
-
-def _check_polarity(polarity: float | np.ndarray) -> None:
-    wrong = [value for value in np.atleast_1d(polarity).tolist() if abs(value) != 1.0]
-    if wrong:
-        raise Refusal("polarity", "be 1, -1 or [-1, 1]", wrong[0])
 
 
 def _each(formula: Any, values: np.ndarray, inertia_ratio: float) -> np.ndarray:
@@ -521,8 +543,11 @@ def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:
     own = {"restitution": system.restitution}
     if system.critical_angle is not None:
         own["critical_angle"] = system.critical_angle
-    named = [name for name in axes if axes[name] is not None or name in ("amplitude", "frequency")]
-    checked = {name: quantity_axis(name, axes[name]) for name in named}
+    required = {"amplitude", "frequency"}
+    named = [name for name in axes if axes[name] is not None or name in required]
+    checked = {
+        name: quantity_axis(name, axes[name], "" if name in required else "the system") for name in named
+    }
     return PulseSpec(checked, {name: own[name] for name in own if name not in checked}, kind=forcing.kind)
 
 

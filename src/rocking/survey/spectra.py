@@ -15,7 +15,7 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.survey_results import OverturningSpectrum, RockingSpectrum
 from rocking.model.system import System
-from rocking.model.validation import Incomplete, Text, instance
+from rocking.model.validation import Incomplete, instance
 from rocking.survey.ending_measures import ending, pulse_ending
 from rocking.survey.incremental_dynamic_analysis import with_names
 from rocking.survey.run_survey import run_survey
@@ -119,7 +119,8 @@ def rocking_spectrum(
         inertia_ratio = block.inertia_ratio if inertia_ratio is None else inertia_ratio
     missing = [f"{{{name}}}" for name in ("size", "slenderness") if sizes.get(name) is None]
     if missing:
-        raise Incomplete("a rocking spectrum", f"{' and '.join(missing)}, or a {{block}}", Text("none"))
+        remedy = "or give a {block}, which has both"
+        raise Incomplete("a rocking spectrum", " and ".join(missing), remedy=remedy)
     spec = motion_spec(
         chosen,
         sizes | {"angle": angle, "polarity": polarity, "level": levels},

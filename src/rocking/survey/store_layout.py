@@ -22,7 +22,7 @@ FORMAT, READABLE = 3, (2, 3)
 """Version of the file format, and those that can be read. Tiles of format 2 have no digests."""
 DEFAULT_DIGITS, ALL_DIGITS = 6, 17
 """Digits of differing numbers in messages: as many as show the difference."""
-MAX_TOLD = 160
+MAX_DIFFERENCES = 160
 """Longest text of the differences of two surveys, in characters."""
 
 
@@ -132,7 +132,7 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
         kept = [
             each
             for count, each in enumerate(differences)
-            if len("; ".join(differences[: count + 1])) <= MAX_TOLD
+            if len("; ".join(differences[: count + 1])) <= MAX_DIFFERENCES
         ] or differences[:1]
         more = f"; and {len(differences) - len(kept)} more" if len(kept) < len(differences) else ""
         raise Statement(
@@ -180,10 +180,11 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
             exact = here.copy()
             exact[:reach:step] = there
             return exact, times
-    raise ValueError(
-        f"store {formatted_path(path)} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}; "
-        f"the requested {here.size} from {here[0]:.6g} to {here[-1]:.6g} omit some of them (give these values; more values beyond "
-        "the last or at half the spacing are possible)"
+    raise Statement(
+        "{store}",
+        f"{formatted_path(path)} holds {there.size} values of {{{name}}} from {there[0]:.6g} to {there[-1]:.6g}; "
+        f"the requested {here.size} from {here[0]:.6g} to {here[-1]:.6g} omit some of them",
+        remedy="give these values; more values beyond the last or at half the spacing are possible",
     )
 
 
@@ -203,12 +204,14 @@ def _difference(name: str, there: Any, here: Any) -> str:
             [each for each in there if each not in here],
             [each for each in here if each not in there],
         )
-    pairs = ((_told(there, digits), _told(here, digits)) for digits in range(DEFAULT_DIGITS, ALL_DIGITS + 1))
+    pairs = (
+        (_stated(there, digits), _stated(here, digits)) for digits in range(DEFAULT_DIGITS, ALL_DIGITS + 1)
+    )
     one, other = next((pair for pair in pairs if pair[0] != pair[1]), ("one", "another"))
     return f"{{{name}}} is {one} there and {other} here"
 
 
-def _told(value: Any, digits: int) -> str:
+def _stated(value: Any, digits: int) -> str:
     if isinstance(value, float):
         return f"{value:.{digits}g}"
     return "not given" if value is None else formatted(value)

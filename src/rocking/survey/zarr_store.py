@@ -18,7 +18,7 @@ import zarr
 
 from rocking.model.files import takes_files
 from rocking.model.text import formatted_path, listed
-from rocking.model.validation import warn_of_input
+from rocking.model.validation import Refusal, Text, warn_of_input
 from rocking.survey import zarr_files
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import SurveySpec
@@ -279,9 +279,8 @@ def opened(
         If the path is not a folder, or the store holds other data, is in use, cannot be written or is damaged.
     """
     if spec.points > MAX_POINTS:
-        raise ValueError(
-            f"store must hold {MAX_POINTS:,} points at most; got {spec.points:,} (divide them among several stores)"
-        )
+        allowed = f"hold {MAX_POINTS:,} points at most"
+        raise Refusal("store", allowed, Text(f"{spec.points:,}"), "divide them among several stores")
     folder = check_store(path)
     place = folder.resolve()
     if not (place / ROOT).is_file():
