@@ -19,7 +19,7 @@ from rocking.model import survey_results
 from rocking.model.quantity import QUANTITIES
 from rocking.model.result import Result
 from rocking.model.survey_results import RockingSpectrum
-from rocking.model.table import finite
+from rocking.model.tables_and_json import finite
 
 BLOCK = rk.Block(2.0, 0.5)
 SYSTEM = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)

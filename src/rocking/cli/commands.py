@@ -101,7 +101,7 @@ COMMANDS = (
         "simulate",
         "Simulate one block and summarise its motion.",
         function="rocking.cli.reports_motion.run",
-        inputs="inputs.simulation",
+        inputs="requests.simulation",
         report="reports_motion.SIMULATE",
         options=(
             *quantities(*SYSTEM, *START),
@@ -144,7 +144,7 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
         "record",
         "Simulate a block under a recorded ground motion.",
         function="rocking.cli.reports_motion.run",
-        inputs="inputs_records.record",
+        inputs="record_requests.record",
         report="reports_motion.RECORD",
         options=(
             click.Argument(
@@ -183,7 +183,7 @@ rocking record example --height 2 --width 0.5 --pga-g 1.3 \\
         "spectrum",
         "Follow blocks of many sizes under ground motions.",
         function="rocking.survey.spectra.rocking_spectrum",
-        inputs="inputs_records.spectrum",
+        inputs="record_requests.spectrum",
         report="reports_records.SPECTRUM",
         options=(
             SOURCES,
@@ -234,7 +234,7 @@ rocking spectrum example --height 2 --width 0.5 --size 0.5:5:50 \\
         "classify",
         "Classify the response and report the evidence.",
         function="rocking.response.classify.classify",
-        inputs="inputs.response",
+        inputs="requests.response",
         report="reports_verdict.CLASSIFY",
         options=(*quantities(*SYSTEM, *START), MODEL, max_cycles(100_000), max_period(), PROVE),
         outputs=(
@@ -255,7 +255,7 @@ rocking classify --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2
         "lyapunov",
         "Measure both Lyapunov exponents with their errors.",
         function="rocking.response.lyapunov.lyapunov",
-        inputs="inputs.response",
+        inputs="requests.response",
         report="reports_verdict.LYAPUNOV",
         options=(
             *quantities(*SYSTEM, *START),
@@ -282,7 +282,7 @@ rocking lyapunov --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 \\
         "modes",
         "Compute the symmetric (1, n) modes in closed form.",
         function="rocking.cli.reports_verdict.find",
-        inputs="inputs.one_system",
+        inputs="requests.one_system",
         report="reports_verdict.MODES",
         options=(*quantities(*FORCED), number("n", "Response period in forcing cycles: 1, 3, 5, ….", 1)),
         outputs=(
@@ -304,7 +304,7 @@ rocking modes --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 \\
         "map",
         "Classify the response at each point of a grid.",
         function="rocking.survey.parametric_map.parametric_map",
-        inputs="inputs.parametric_map",
+        inputs="requests.parametric_map",
         report="reports_surveys.MAP",
         options=(*quantities(*SYSTEM, *START, kind=VALUES, varied=VARIABLE), MODEL, *SURVEY_COUNTS),
         outputs=(
@@ -350,7 +350,7 @@ rocking map --height 2 --width 0.5 --acceleration 1:8:50 \\
         "basins",
         "Compute basins of attraction.",
         function="rocking.survey.basins.basin_map",
-        inputs="inputs.basins",
+        inputs="requests.basins",
         report="reports_surveys.BASINS",
         options=(
             *quantities(*SYSTEM),
@@ -405,7 +405,7 @@ rocking basins --amplitude 5.5 --period 1 --restitution 0.8 \\
         "safe-basin",
         "Estimate the safe fraction of initial states.",
         function="rocking.survey.basins.safe_basin",
-        inputs="inputs.safe_basin",
+        inputs="requests.safe_basin",
         report="reports_surveys.SAFE_BASIN",
         options=(
             *quantities(*SYSTEM, kind=AXIS, varied=AMPLITUDES),
@@ -454,7 +454,7 @@ rocking safe-basin --height 2 --width 0.5 --acceleration 2:10:20 \\
         "overturning",
         "Find the lowest amplitude that overturns a block.",
         function="rocking.survey.overturning_amplitude.overturning_amplitude",
-        inputs="inputs.overturning",
+        inputs="requests.overturning",
         report="reports_surveys.OVERTURNING",
         options=(
             *quantities(
@@ -513,7 +513,7 @@ rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10 \\
         "overturning-set",
         "Find the levels at which records overturn a block.",
         function="rocking.survey.overturning_set.overturning_set",
-        inputs="inputs_records.overturning_set",
+        inputs="record_requests.overturning_set",
         report="reports_records.OVERTURNING_SET",
         options=(
             SOURCES,
@@ -546,7 +546,7 @@ rocking overturning-set example --height 2 --width 0.5 --pga-g 0.1:2:400 \\
         "overturning-spectrum",
         "Find the pulses that overturn a block.",
         function="rocking.survey.spectra.overturning_spectrum",
-        inputs="inputs.overturning_spectrum",
+        inputs="requests.overturning_spectrum",
         report="reports_surveys.OVERTURNING_SPECTRUM",
         options=(
             *quantities("height", "width", "restitution", "critical_angle", kind=VALUES, varied=VARIABLE),
@@ -592,7 +592,7 @@ rocking overturning-spectrum --pulse ricker --height 2 --width 0.5 \\
         "fragility",
         "Estimate how likely ground motions overturn a block.",
         function="rocking.survey.fragility.fragility",
-        inputs="inputs_records.fragility",
+        inputs="record_requests.fragility",
         report="reports_records.FRAGILITY",
         options=(
             SOURCES,
@@ -643,7 +643,7 @@ rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
         "sensitivity",
         "Count the verdicts that small changes reverse.",
         function="rocking.survey.sensitivity.sensitivity",
-        inputs="inputs_records.sensitivity",
+        inputs="record_requests.sensitivity",
         report="reports_records.SENSITIVITY",
         options=(
             SOURCES,
@@ -668,7 +668,7 @@ rocking sensitivity example --height 2 --width 0.5 --pga-g 0.5:1.5:30 \\
         "orbits",
         "Search for all periodic orbits up to a period.",
         function="rocking.orbits.find_orbits.find_orbits",
-        inputs="inputs.one_system",
+        inputs="requests.one_system",
         report="reports_orbits.ORBITS",
         options=(
             *quantities(*SYSTEM),
@@ -698,8 +698,8 @@ rocking orbits --height 2 --width 1 --acceleration 6 --frequency-hz 1.2 \\
     Command(
         "continue",
         "Follow a periodic orbit through a parameter.",
-        function="rocking.cli.inputs.follow",
-        inputs="inputs.continuation",
+        function="rocking.cli.requests.follow",
+        inputs="requests.continuation",
         report="reports_orbits.CONTINUE",
         options=(
             *quantities(
@@ -746,7 +746,7 @@ rocking continue --height 2 --width 0.5 --acceleration 4:2 \\
         "frequency-response",
         "Compute the frequency response of (1, n) orbits.",
         function="rocking.orbits.frequency_response.frequency_response",
-        inputs="inputs.frequency_response",
+        inputs="requests.frequency_response",
         report="reports_orbits.FREQUENCY_RESPONSE",
         progress=True,
         options=(
@@ -782,7 +782,7 @@ rocking frequency-response --height 2 --width 0.5 --acceleration 4 \\
         "orbit-diagram",
         "Compute an orbit (bifurcation) diagram.",
         function="rocking.orbits.orbit_diagram.orbit_diagram",
-        inputs="inputs.sweep",
+        inputs="requests.sweep",
         report="reports_orbits.ORBIT_DIAGRAM",
         progress=True,
         options=(

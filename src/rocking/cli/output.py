@@ -22,12 +22,12 @@ from rocking.model.files import (
     replacing_hdf5,
     resolve_path,
 )
-from rocking.model.table import finite
+from rocking.model.tables_and_json import finite
 from rocking.model.text import formatted_path
 from rocking.survey import export
 
 if TYPE_CHECKING:
-    from rocking.cli.inputs import Request
+    from rocking.cli.requests import Request
 
 Row = tuple[str, ...]
 Table = Mapping[str, Any]

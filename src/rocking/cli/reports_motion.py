@@ -25,13 +25,13 @@ from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.system import State, System
-from rocking.model.table import headed
+from rocking.model.tables_and_json import headed
 from rocking.model.text import counted, ordinal
 from rocking.model.verdict import Outcome, Verdict
 from rocking.motion.motion import has_cycles
 
 if TYPE_CHECKING:
-    from rocking.cli.inputs import Request
+    from rocking.cli.requests import Request
     from rocking.motion.motion import Motion
 
 ROWS_AT_ONCE = 100_000

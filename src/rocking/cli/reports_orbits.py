@@ -24,7 +24,7 @@ from rocking.model.orbit import Orbit
 from rocking.model.system import State, System
 
 if TYPE_CHECKING:
-    from rocking.cli.inputs import Followed, Request
+    from rocking.cli.requests import Followed, Request
     from rocking.orbits.branch import Branch
     from rocking.orbits.find_orbits import Orbits
     from rocking.orbits.frequency_response import FrequencyResponse

@@ -20,14 +20,14 @@ from rocking.cli.reports import (
 )
 from rocking.model.record_results import Fragility, OverturningSet, Sensitivity, limit_name
 from rocking.model.record_set import RecordSet
-from rocking.model.table import counts
+from rocking.model.tables_and_json import counts
 from rocking.model.text import counted, percent, percent_with_ends
 from rocking.survey.export import tables
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.cli.inputs import Request
+    from rocking.cli.requests import Request
 
 
 def with_equation(result: Any, rows: Iterable[Row], title: str, sentences: Iterable[str]) -> Text:

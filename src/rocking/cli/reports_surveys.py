@@ -24,14 +24,14 @@ from rocking.model.block_formulas import GRAVITY
 from rocking.model.quantity import IN_SI
 from rocking.model.survey_results import BasinMap, OverturningCurve, SafeBasin
 from rocking.model.system import System
-from rocking.model.table import counts
+from rocking.model.tables_and_json import counts
 from rocking.model.text import counted, percent
 from rocking.model.verdict import Criterion, Outcome
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.cli.inputs import Request
+    from rocking.cli.requests import Request
 
 COUNTS = ("max_cycles", "max_period")
 DRAWN = ("curves", "symbols")

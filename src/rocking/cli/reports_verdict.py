@@ -34,7 +34,7 @@ from rocking.response.lyapunov import dimension_of
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.cli.inputs import Request
+    from rocking.cli.requests import Request
     from rocking.response.lyapunov import LyapunovSpectrum
 
 # Verdict.

@@ -40,7 +40,7 @@ def read(path: Path, parameters: Collection[click.Parameter], *, checked: bool) 
 
     Keys are the names of options, with hyphens or underscores.
     """
-    from rocking.cli.inputs import check_entry
+    from rocking.cli.requests import check_entry
     from rocking.model.validation import similar
 
     entries = entries_of(path)

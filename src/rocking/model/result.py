@@ -15,7 +15,7 @@ import numpy as np
 from rocking.model.block import Block, block_attributes
 from rocking.model.package import VERSION
 from rocking.model.quantity import Quantity
-from rocking.model.table import Table, dictionary, in_si, tables_of
+from rocking.model.tables_and_json import Table, dictionary, in_si, tables_of
 from rocking.model.validation import Refusal, instance, one_of
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from rocking.model.record_results import named_levels
 from rocking.model.result import UNITS, Result, along, described
 from rocking.model.share import Share, share_variables
 from rocking.model.system import State, System, quantities
-from rocking.model.table import counts
+from rocking.model.tables_and_json import counts
 from rocking.model.text import percent
 from rocking.model.validation import Refusal, Text, WrongType, instance, one_of, refuse_if
 from rocking.model.verdict import Kind, Verdict

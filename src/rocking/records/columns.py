@@ -9,16 +9,12 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.model.text import counted, formatted
-from rocking.records.text_file import (
+from rocking.records.text_file import MAX_SAMPLES, NUMBER, Channel, RecordError, TextFile
+from rocking.records.units import (
     IN_BRACKETS,
-    MAX_SAMPLES,
-    NUMBER,
     OTHER_TIMES,
     SEPARATOR,
     TIMES,
-    Channel,
-    RecordError,
-    TextFile,
     cells,
     header_units,
     is_line_of_units,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-from rocking.records.text_file import Channel, Peak, TextFile, unit_of
+from rocking.records.text_file import Channel, Peak, TextFile
+from rocking.records.units import unit_of
 
 CORRECTED = (
     r"^\s*(\d+)\s+POINTS OF ACC\w* DATA EQUALLY SPACED AT\s+(\S+)\s+SEC\W+"

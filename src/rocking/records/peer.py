@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-from rocking.records.text_file import Channel, TextFile, header_units, only
+from rocking.records.text_file import Channel, TextFile
+from rocking.records.units import header_units, only
 
 TITLE = r"(ACCELERATION|VELOCITY|DISPLACEMENT)\s+TIME\s+(?:SERIES|HISTORY)\s+IN\s+UNITS\s+OF\s+(\S+)"
 OTHER = r"\b(VELOCITY|DISPLACEMENT)\b"

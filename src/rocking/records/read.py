@@ -15,7 +15,8 @@ import numpy as np
 from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion, RecordFile, pga_doubt
 from rocking.model.validation import Refusal, one_of, warn_of_input, whole, within
 from rocking.records import columns, cosmos, csmip, esm, geonet, knet, obspy_streams, peer, smc
-from rocking.records.text_file import UNITS, Channel, Content, RecordError, TextFile, given_unit
+from rocking.records.text_file import Channel, Content, RecordError, TextFile
+from rocking.records.units import UNITS, given_unit
 
 FORMATS: tuple[Any, ...] = (cosmos, smc, esm, geonet, knet, peer, csmip, columns)
 """Readers in the order in which they are tried; any text of numbers has columns."""

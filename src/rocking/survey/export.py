@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.model.block import Block, block_attributes
 from rocking.model.files import check_writable, replacing_hdf5
-from rocking.model.table import Table, in_si, parts, tables_of
+from rocking.model.tables_and_json import Table, in_si, parts, tables_of
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -17,7 +17,7 @@ from attrs import frozen
 
 from rocking.model.package import require_extra
 from rocking.model.progress import Bar
-from rocking.model.table import flags
+from rocking.model.tables_and_json import flags
 from rocking.model.text import counted, formatted_path, percent
 from rocking.model.validation import Refusal, instance
 from rocking.survey.measurement import Arrays, Batch, Measurement, batches, compute

@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.cli.inputs import (
+from rocking.cli.options import LEVELS, InvalidInput, option, refusals
+from rocking.cli.requests import (
     Options,
     Request,
     braces_of,
@@ -22,7 +23,6 @@ from rocking.cli.inputs import (
     start_of,
     values_of,
 )
-from rocking.cli.options import LEVELS, InvalidInput, option, refusals
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
