@@ -5,6 +5,7 @@ import re
 
 import attrs
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.optimize import minimize
 from scipy.stats import norm
@@ -425,3 +426,15 @@ def test_two_levels_show_no_misfit():
     found = rk.fragility(rk.synthetic_ground_motions(12, seed=1), rk.Block(2.0, 0.5), [4.0, 6.0], limits=())
     assert math.isnan(found.fit().misfit)
     assert "misfit" not in str(found)
+
+
+@pytest.mark.parametrize("levels", [[[1.0], [2.0, 3.0]], [[1.0, 2.0]], [None], ["1"]])
+def test_what_is_no_array_of_levels_is_refused(levels):
+    with pytest.raises((TypeError, ValueError), match="^levels must "):
+        rk.fragility(rk.synthetic_ground_motions(3, seed=1), rk.Block(2.0, 0.5), levels)
+
+
+def test_one_level_may_come_with_an_index():
+    records = rk.synthetic_ground_motions(3, seed=1)
+    found = rk.fragility(records, rk.Block(2.0, 0.5), pd.Series([2.0], index=[5]), limits=())
+    assert found.dataset.level.values.tolist() == [2.0]

@@ -140,6 +140,7 @@ function conclude(message) {
 function write(message) {
   find("kind").textContent = message.kind;
   find("verdict").querySelector("i").style.background = message.colour;
+  find("sentence").textContent = message.sentence ?? "";
   find("facts").replaceChildren(...rows(message.facts));
   find("evidence").textContent = message.evidence;
 }

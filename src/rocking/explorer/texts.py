@@ -43,10 +43,29 @@ def verdict(result: Verdict, block: Block | None) -> dict[str, Any]:
     facts.append(("simulated", counted(result.cycles, "cycle")))
     return {
         "kind": str(result.kind),
+        "sentence": sentence(result),
         "colour": style.look_of(result).colour,
         "facts": facts,
         "evidence": str(result.evidence),
     }
+
+
+SENTENCES = {
+    Kind.REST: "The block comes to rest and stands.",
+    Kind.QUASI_PERIODIC: "The block rocks for ever. Its motion never repeats itself, but is regular.",
+    Kind.CHAOTIC: "The block rocks for ever, irregularly. Two almost equal starts soon lead to different motions.",
+    Kind.OVERTURNED: "The block falls over.",
+    Kind.UNDETERMINED: "The simulated motion does not show how the block ends.",
+}
+"""What a verdict means for the block; that of a periodic response also states its period."""
+
+
+def sentence(result: Verdict) -> str:
+    """Return in plain words what the block does."""
+    if result.period is None:
+        return SENTENCES[result.kind]
+    times = "cycle" if result.period == 1 else f"{result.period} cycles"
+    return f"The block rocks for ever and repeats its motion every {times} of the base."
 
 
 def impacts(number: int | None) -> str:

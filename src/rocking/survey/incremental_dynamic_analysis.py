@@ -15,7 +15,7 @@ from rocking.model.record_results import IncrementalDynamicAnalysis
 from rocking.model.record_set import RecordSet, record_set
 from rocking.survey.ending_measures import ending
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import MotionSpec, check_one_block, checked_polarity, motion_spec
+from rocking.survey.spec import MotionSpec, check_one_block, checked_polarity, is_axis, motion_spec
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -113,8 +113,8 @@ def block_spec(
     With ``one_level``, a single level is allowed. It is not an axis of the survey.
     """
     check_one_block(block, levels, angle)
-    if one_level and np.shape(levels) == (1,):
-        levels = np.asarray(levels).item()
+    if one_level and len(levels) == 1 and not is_axis(only := next(iter(levels))):
+        levels = only
     return motion_spec(
         records,
         {
