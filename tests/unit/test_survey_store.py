@@ -357,6 +357,128 @@ def test_who_interrupts_the_reading_of_a_store_is_told_that_it_is_complete(tmp_p
     assert caught.value.__notes__ == [told]
 
 
+RECORDS = rk.synthetic_ground_motions(2, seed=3, duration=4.0)
+OF_RECORDS = {"records": RECORDS, "block": rk.Block(2.0, 0.5), "levels": np.linspace(1.0, 4.0, 40)}
+TWO_AXES = {name: ASKED[name][::3] for name in ("amplitude", "period")}
+STARTS = {"angle": (-1.0, 1.0), "velocity": (-1.0, 1.0), "samples": 100, "max_cycles": 40}
+PULSE = rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9)
+RESUMED = {
+    "map": (rk.parametric_map, ASKED | TWO_AXES),
+    "repeatability": (
+        rk.repeatability_map,
+        {"system": ASKED["system"], "samples": 2, "max_cycles": 20} | TWO_AXES,
+    ),
+    "basins": (
+        rk.basin_map,
+        {"system": system_with(restitution=0.9, amplitude=4.0), "boundary_runs": 0} | STARTS,
+    ),
+    "safe basin": (rk.safe_basin, {"system": system_with(restitution=0.9), "amplitude": [4.0, 5.0]} | STARTS),
+    "overturning": (
+        rk.overturning_amplitude,
+        {"system": ASKED["system"], "period": [1.0, 2.0], "amplitude": ASKED["amplitude"][1:], "phases": 2},
+    ),
+    "pulses": (
+        rk.overturning_spectrum,
+        {"system": PULSE, "amplitude": ASKED["amplitude"][1:], "frequency": [1.0, 2.0]},
+    ),
+    "spectrum": (
+        rk.rocking_spectrum,
+        {"records": RECORDS, "size": np.linspace(1.0, 2.0, 40), "slenderness": 0.2, "levels": 2.0},
+    ),
+    "dynamic analysis": (rk.incremental_dynamic_analysis, OF_RECORDS),
+    "fragility": (rk.fragility, OF_RECORDS | {"samples": 2, "width_spread": 0.1, "replicates": 100}),
+    "sensitivity": (rk.sensitivity, OF_RECORDS),
+    "overturning set": (rk.overturning_set, OF_RECORDS),
+}
+
+
+@pytest.mark.parametrize("name", RESUMED)
+def test_every_survey_that_is_interrupted_is_resumed_and_repaired_to_the_result_in_memory(
+    name, tmp_path, monkeypatch, computed
+):
+    survey, arguments = RESUMED[name]
+    folder, write, left = tmp_path / "survey.zarr", zarr_store.Store.write, [1]
+    plain, whole = survey(**arguments).dataset.load(), computed()
+
+    def interrupted(kept, tile, answers):
+        left[0] -= 1
+        if left[0] < 0:
+            raise KeyboardInterrupt
+        write(kept, tile, answers)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(zarr_store.Store, "write", interrupted)
+        with pytest.raises(KeyboardInterrupt) as caught:
+            survey(**arguments, store=folder)
+    assert "run it again to resume" in caught.value.__notes__[0]
+    before = computed()
+    assert survey(**arguments, store=folder).dataset.load().identical(plain)
+    assert 0 < computed() - before < whole
+    damaged = next(path for path in folder.glob("level-*/*/digests/**/*") if path.is_file())
+    Path(str(damaged).replace("digests", "c")).write_bytes(b"")
+    with pytest.raises(OSError, match="recompute these tiles with repair"):
+        survey(**arguments, store=folder)
+    before = computed()
+    assert survey(**arguments, store=folder, repair=True).dataset.load().identical(plain)
+    assert 0 < computed() - before < whole
+
+
+@pytest.mark.parametrize(
+    "name, changed",
+    [
+        ("safe basin", {"samples": 150, "amplitude": [4.0, 5.0, 6.0]}),
+        ("basins", {"samples": 150}),
+        ("overturning set", {"levels": np.append(OF_RECORDS["levels"], [4.1, 4.2])}),
+        ("sensitivity", {"levels": np.append(OF_RECORDS["levels"], [4.1, 4.2])}),
+    ],
+)
+def test_more_samples_and_more_levels_extend_a_store(name, changed, tmp_path, computed):
+    survey, arguments = RESUMED[name]
+    survey(**arguments, store=tmp_path)
+    before = computed()
+    longer = survey(**(arguments | changed), store=tmp_path).dataset.load()
+    added = computed() - before
+    assert longer.identical(survey(**(arguments | changed)).dataset.load())
+    assert 0 < added < computed() - before - added
+
+
+def test_store_of_one_random_initial_state_is_read_again(tmp_path, computed):
+    survey, arguments = RESUMED["safe basin"]
+    for _ in range(2):
+        survey(**(arguments | {"samples": 1}), store=tmp_path)
+    assert computed() == 2
+
+
+OTHER_RECORDS = {
+    "sensitivity": ({"records": RECORDS[0].scaled(2.0)}, "the ground motions are others"),
+    "overturning set": (
+        {"records": rk.synthetic_ground_motions(2, seed=4, duration=4.0)},
+        "the ground motions are others (",
+    ),
+    "fragility": ({"samples": 3}, "samples is 2 there and 3 here ("),
+    "safe basin": ({"angle": (-0.5, 1.0)}, "angle_range is [-1.0] there and [-0.5] here ("),
+    "basins": ({"seed": 1}, "seed is 0 there and 1 here ("),
+}
+
+
+@pytest.mark.parametrize("name", OTHER_RECORDS)
+def test_store_of_other_records_or_samples_is_refused_with_what_differs(name, tmp_path):
+    (survey, arguments), (changed, differs) = RESUMED[name], OTHER_RECORDS[name]
+    survey(**arguments, store=tmp_path)
+    with pytest.raises(ValueError, match=f"holds a different survey: .*{re.escape(differs)}"):
+        survey(**(arguments | changed), store=tmp_path)
+
+
+def test_store_of_an_overturning_set_is_not_refined(tmp_path):
+    rk.overturning_set(**OF_RECORDS, store=tmp_path)
+    message = (
+        "holds 40 values of level from 1 to 4; the requested 79 from 1 to 4 are others "
+        "(give these values; more values beyond the last are possible)"
+    )
+    with pytest.raises(ValueError, match=re.escape(message)):
+        rk.overturning_set(**(OF_RECORDS | {"levels": np.linspace(1.0, 4.0, 79)}), store=tmp_path)
+
+
 STRANGERS = {
     "another restitution": (
         {"system": system_with(restitution=0.8)},

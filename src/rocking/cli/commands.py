@@ -429,6 +429,8 @@ rocking basins --amplitude 5.5 --period 1 --restitution 0.8 \\
             *SURVEY_COUNTS,
         ),
         outputs=(
+            STORE,
+            REPAIR,
             plot("Plot the safe fraction over the amplitude, with its intervals and the thresholds"),
             csv("Write one row per amplitude"),
             SURVEY_NETCDF,
@@ -529,6 +531,8 @@ rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10 \\
             *READING,
         ),
         outputs=(
+            STORE,
+            REPAIR,
             plot("Plot the intervals of overturning levels, a row per record"),
             csv("Write the switches"),
             SURVEY_NETCDF,
@@ -616,6 +620,8 @@ rocking overturning-spectrum --pulse ricker --height 2 --width 0.5 \\
             *READING,
         ),
         outputs=(
+            STORE,
+            REPAIR,
             plot("Plot the probabilities with intervals and lognormal fits"),
             csv("Write the probabilities and their intervals as a table"),
             SURVEY_NETCDF,
@@ -654,7 +660,7 @@ rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
             MODEL,
             *READING,
         ),
-        outputs=(csv("Write one row per change"), SURVEY_NETCDF, JSON),
+        outputs=(STORE, REPAIR, csv("Write one row per change"), SURVEY_NETCDF, JSON),
         details="A verdict is whether the block overturns. Every run is repeated with five changes: the amplitude ± 1 %, sampling half "
         "a step later, and the coefficient of restitution ± 0.02. All intervals are at 95 % and clustered by record. "
         + LEVELS_TEXT,

@@ -10,26 +10,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model.progress import Bar
 from rocking.model.quantity import ANGLE
 from rocking.model.share import Share
 from rocking.model.survey_results import Attractor, BasinMap, SafeBasin
 from rocking.model.system import System, check_between
-from rocking.model.validation import WrongType, instance, refuse_if, whole, within
+from rocking.model.validation import instance, refuse_if, whole, within
 from rocking.model.verdict import Kind
 from rocking.survey.attractors import destination, label_attractors, make_attractors
-from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.memory import attributes
-from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.run_survey import check_repair, run_survey
+from rocking.survey.random_points import MAX_SAMPLES, generator, random_starts, span
+from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import (
     HarmonicSpec,
-    Points,
     by_period,
     coordinate,
     harmonic_spec,
-    points,
-    points_of,
     system_quantities,
 )
 from rocking.survey.uncertainty_exponent import WIDTHS, Boundaries
@@ -81,7 +76,7 @@ def basin_map(
         Largest width of the intervals of both exponents, in [1e-4, 1]. More runs are added to `boundary_runs` until the intervals
         are narrower, until further runs narrow them no more, or until there are 10⁷ runs. Default: no further runs.
     store, executor, progress, repair
-        As in `parametric_map`. A store holds a grid, so that it excludes `samples`. The progress bars include the further runs.
+        As in `parametric_map`. A store does not hold the further runs. The progress bars include them.
 
     Returns
     -------
@@ -141,16 +136,14 @@ def basin_map(
         ends = {name: (values[0], values[-1]) for name, values in spec.axes.items()}
         starts = grid_starts(spec)
     else:
-        if store is not None:
-            raise WrongType("store", "be used without {samples}, because it holds a grid", str(store))
-        check_repair(store, repair=repair)
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
         reach = ANGLE.range[1] if system.braces is None else system.braces.angle
         check_between(max(ends["angle"], key=abs), reach)
-        starts = random.uniform(*_corners(ends), (whole("samples", samples, 1, MAX_SAMPLES), 2))
-        title = "initial states" if instance("progress", progress, bool) else ""
-        answers = sampled(points_of(system, starts), measure, executor, title)
-        data = _random_dataset(system, starts, measure, answers).assign_attrs(seed=seed)
+        fixed = HarmonicSpec({}, by_period(system))
+        drawn = random_starts(fixed, ends, samples, random, seed)
+        data = run_survey(drawn, measure, store, executor, progress=progress, repair=repair).load()
+        starts = drawn.starts
+        data = _random_dataset(data, starts, attributes(fixed, measure) | {"seed": seed})
     labels, first = label_attractors(system, {str(name): data[name].values for name in data.data_vars})
     attractors = make_attractors(system, starts, first, max_cycles, max_period)
     _attach(data, labels, [each.name for each in attractors])
@@ -181,18 +174,14 @@ def _corners(ends: dict[str, tuple[float, float]]) -> tuple[tuple[float, float],
     return (a, c), (b, d)
 
 
-def _random_dataset(system: System, starts: np.ndarray, measure: Measurement, answers: Arrays) -> xr.Dataset:
-    """Return the dataset of random initial states from their results."""
-    import xarray as xr
-
-    return xr.Dataset(
-        {each.name: ("sample", answers[each.name], each.attributes) for each in measure.variables},
-        {
-            name: ("sample", starts[:, column], coordinate(name))
-            for column, name in enumerate(("angle", "velocity"))
-        },
-        attributes(HarmonicSpec({}, by_period(system)), measure),
+def _random_dataset(data: xr.Dataset, starts: np.ndarray, metadata: dict[str, Any]) -> xr.Dataset:
+    """Return the dataset of random initial states, which have their angles and velocities instead of numbers."""
+    names = zip(("angle", "velocity"), starts.T, strict=True)
+    result = data.drop_vars("sample").assign_coords(
+        {name: ("sample", values, coordinate(name)) for name, values in names}
     )
+    result.attrs = metadata
+    return result
 
 
 def _attach(data: xr.Dataset, labels: np.ndarray, names: list[str]) -> None:
@@ -219,8 +208,10 @@ def safe_basin(
     seed: int = 0,
     max_cycles: int = 10_000,
     max_period: int = 64,
+    store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
+    repair: bool = False,
 ) -> SafeBasin:
     """Estimate the fraction of initial states that do not overturn, over the amplitude.
 
@@ -245,8 +236,8 @@ def safe_basin(
         Random seed in [0, 2³² − 1]. Default: 0.
     max_cycles, max_period : int
         As in `classify`. Default: 10,000 and 64.
-    executor, progress
-        As in `parametric_map`.
+    store, executor, progress, repair
+        As in `parametric_map`. More samples of the same seed, and more amplitudes, extend a store.
 
     Returns
     -------
@@ -255,8 +246,8 @@ def safe_basin(
 
     Raises
     ------
-    TypeError, ValueError
-        If an argument has the wrong type or lies outside its range.
+    TypeError, ValueError, ImportError, OSError
+        As in `parametric_map`.
 
     See Also
     --------
@@ -267,8 +258,7 @@ def safe_basin(
     Notes
     -----
     The intervals are Wilson's at 95 %. Because the initial states are the same, the difference of the fractions at two
-    amplitudes is more certain than their intervals suggest. There is no store: the same seed reproduces the initial
-    states, and `basin_map` stores a grid of them.
+    amplitudes is more certain than their intervals suggest.
     Not guaranteed: that undetermined and chaotic responses never overturn. Both count as safe.
 
     Examples
@@ -282,24 +272,14 @@ def safe_basin(
     measure = outcome(max_cycles, max_period, SAFE_BASIN)
     spec = harmonic_spec(system_quantities(system), {"amplitude": amplitude}, 1, "a safe basin")
     reach = ANGLE.range if system.braces is None else (-system.braces.angle, system.braces.angle)
-    low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
-    starts = generator(seed).uniform(low, high, (whole("samples", samples, 1, MAX_SAMPLES), 2))
-    amplitudes, kinds = spec.axes["amplitude"].tolist(), []
-    total = len(amplitudes) * len(starts)
-    with Bar(total, "initial states", shown=instance("progress", progress, bool)) as bar:
-        for value in amplitudes:
-            kinds.append(sampled(_placed(spec, value, starts), measure, executor)["kind"])
-            bar.advance(len(starts))
-    drawn = {"seed": seed, "angle_range": [low[0], high[0]], "velocity_range": [low[1], high[1]]}
-    return SafeBasin(*_summed_up(spec, measure, kinds, drawn), system=system)
-
-
-def _placed(spec: HarmonicSpec, amplitude: float, starts: np.ndarray) -> Points:
-    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, spec.fixed | {"amplitude": amplitude})
+    ends = {"angle": span("angle", angle, reach), "velocity": span("velocity", velocity)}
+    drawn = random_starts(spec, ends, samples, generator(seed), seed)
+    data = run_survey(drawn, measure, store, executor, progress=progress, repair=repair)
+    return SafeBasin(*_summed_up(spec, measure, data.kind.values, drawn.stated), system=system)
 
 
 def _summed_up(
-    spec: HarmonicSpec, measure: Any, kinds: list[np.ndarray], drawn: dict[str, Any]
+    spec: HarmonicSpec, measure: Any, kinds: np.ndarray, drawn: dict[str, Any]
 ) -> tuple[xr.Dataset, tuple[Share, ...], float, float]:
     import xarray as xr
 

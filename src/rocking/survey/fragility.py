@@ -23,8 +23,6 @@ from rocking.survey.run_survey import run_survey
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.survey.spec import MotionSpec
-
 TITLE = "Fragility of a free-standing block under ground motions"
 MAX_SPREAD, MAX_BLOCKS, MAX_REPLICATES = 0.5, 10_000, 100_000
 MAX_LIMIT = 10.0
@@ -166,7 +164,12 @@ def fragility(
     )
     spec = block_spec(chosen, block, levels, intensity, model=model, one_level=True)
     if any(spreads.values()):
-        spec = _uncertain(spec, chosen, block, count, spreads, seed)
+        spec = spec.extended(
+            UncertainMotionSpec,
+            {"sample": np.arange(float(count))},
+            drawn=block_samples(chosen, block, count, tuple(spreads.values()), seed),  # type: ignore[arg-type]
+            stated={**spreads, "samples": count, "seed": seed},
+        )
     data = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
     runs = of_block(data, spec, chosen, block).assign_attrs(replicates=replicates, seed=seed)
     weights = two_level_weights(len(chosen), count, replicates, np.random.default_rng(seed))
@@ -183,24 +186,6 @@ def _limits(values: Any) -> np.ndarray:
     ):
         raise Refusal("limits", allowed, values, "overturning follows by itself")
     return numbers
-
-
-def _uncertain(
-    spec: MotionSpec, records: RecordSet, block: Block, count: int, spreads: dict[str, float], seed: int
-) -> UncertainMotionSpec:
-    axes = dict(spec.axes)
-    levels = {"level": axes.pop("level")} if "level" in axes else {}
-    return UncertainMotionSpec(
-        axes | {"sample": np.arange(float(count))} | levels,
-        spec.fixed,
-        spec.motions,
-        spec.intensities,
-        measure=spec.measure,
-        digest=spec.digest,
-        model=spec.model,
-        drawn=block_samples(records, block, count, tuple(spreads.values()), seed),  # type: ignore[arg-type]
-        stated={**spreads, "seed": seed},
-    )
 
 
 def _estimated(

@@ -2,31 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import math
+import os
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import CancelledError, Executor
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
+from attrs import evolve, field, frozen
 
 from rocking.kernels.march import ending as ends
 from rocking.kernels.march import finite_runs as kernel
 from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.package import VERSION
-from rocking.model.progress import Bar
-from rocking.model.quantity import ANGLE, LEVEL
 from rocking.model.record_results import SWITCH_ROW, OverturningSet, intervals_of
-from rocking.model.record_set import Intensity, RecordSet, intensity_of, record_set
-from rocking.model.system import MODELS
-from rocking.model.validation import instance, one_of
-from rocking.survey.ending_measures import CERTIFIED, OVERTURNED, VARIABLES, answers, sampled
-from rocking.survey.incremental_dynamic_analysis import with_names
-from rocking.survey.measurement import Arrays
-from rocking.survey.run_survey import count_when_done, engine
-from rocking.survey.spec import axis, check_one_block, checked_polarity
+from rocking.model.record_set import RecordSet, record_set
+from rocking.survey.ending_measures import CERTIFIED, METHOD, OVERTURNED, VARIABLES, answers, sampled
+from rocking.survey.incremental_dynamic_analysis import block_spec, of_block
+from rocking.survey.measurement import Arrays, Measurement, Variable
+from rocking.survey.run_survey import run_survey
+from rocking.survey.spec import MotionSpec, Values
 
 if TYPE_CHECKING:
     import xarray as xr
+
+TITLE = "Overturning set of a block under ground motions"
 
 KEPT = ("outcome", "certified", "impacts_since_rest")
 """Variables over the levels of the grid."""
@@ -39,27 +40,40 @@ COLUMNS = {
     "certified_below": "closest level below that was found certified",
     "certified_above": "closest level above that was found certified",
 }
+SWITCH = ("level", "certified_below", "certified_above", "impacts_since_rest")
+"""Quantities of the switch between a level of the grid and the level below it; NaN without a switch."""
 
-Runs = Callable[[np.ndarray], Arrays]
-
-
-class Scan(NamedTuple):
-    """Runs of one record at the levels of the grid, and its switches."""
-
-    grid: Arrays
-    switches: np.ndarray
+Run = Callable[[np.ndarray], Arrays]
 
 
-class Work(NamedTuple):
-    """Work of one record: the motion, the intensity measure and its value for the motion, the block and the start."""
+class Steps(NamedTuple):
+    """Steps from a level of the grid to the next, each an array (n,); below the first level is that level itself."""
 
-    motion: GroundMotion
-    measure: Intensity
-    value: float
-    block: Block
-    angle: float
-    polarity: float
-    full: bool
+    spec: SwitchSpec
+    record: np.ndarray
+    below: np.ndarray
+    level: np.ndarray
+
+
+@frozen(eq=False)
+class SwitchSpec(MotionSpec):
+    """Survey of the switches between neighbouring levels of a grid, which have no meaning on a coarser grid."""
+
+    refines: ClassVar[bool] = False
+
+    block: Block = field(kw_only=True)
+    grid: np.ndarray = field(kw_only=True)
+
+    def with_axes(self, axes: dict[str, np.ndarray]) -> SwitchSpec:
+        """Return the survey over other axes of the same names; shorter ones are parts of the grid."""
+        level = axes["level"]
+        return evolve(super().with_axes(axes), grid=level if level.size >= self.grid.size else self.grid)
+
+    def inputs(self, values: Values) -> Steps:  # type: ignore[override]
+        """Return the steps to n points."""
+        level = values["level"]
+        below = self.grid[np.maximum(np.searchsorted(self.grid, level) - 1, 0)]
+        return Steps(self, values.get("record", np.zeros(level.size)).astype(int), below, level)
 
 
 def overturning_set(
@@ -71,8 +85,10 @@ def overturning_set(
     angle: float = 0.0,
     polarity: float = 1.0,
     model: str = "slender",
+    store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
+    repair: bool = False,
 ) -> OverturningSet:
     """Find the levels at which ground motions overturn a block, not only the lowest.
 
@@ -97,8 +113,8 @@ def overturning_set(
     model : {"slender", "full"}
         Equation of motion, as for `Block.system`. With "full", rounding errors are not assessed, so that no switch is
         certified. Default: "slender".
-    executor, progress
-        As in `parametric_map`.
+    store, executor, progress, repair
+        As in `parametric_map`. More levels extend a store. It cannot be refined, because switches are sought between neighbours.
 
     Returns
     -------
@@ -107,8 +123,8 @@ def overturning_set(
 
     Raises
     ------
-    TypeError, ValueError
-        If an argument has the wrong type or lies outside its range.
+    TypeError, ValueError, ImportError, OSError
+        As in `parametric_map`.
 
     See Also
     --------
@@ -131,70 +147,61 @@ def overturning_set(
     (2, True)
     """
     chosen = record_set(records)
-    check_one_block(block, levels, angle)
-    levels = axis("levels", levels, LEVEL.range)
-    angle = ANGLE.checked(angle)
-    polarity = float(checked_polarity(polarity, one=True))
-    measure, values = intensity_of(intensity, chosen)
-    if executor is not None:
-        instance("executor", executor, Executor)
-    full = one_of("model", model, MODELS) == "full"
-    work = [
-        Work(motion, measure, value, block, angle, polarity, full)
-        for motion, value in zip(chosen, values.tolist(), strict=True)
-    ]
-    progress = instance("progress", progress, bool)
-    with engine(executor) as (pool, stop), Bar(len(work), "records", shown=progress) as bar:
-        futures = [pool.submit(scan, each, levels, stop) for each in work]
-        for future in futures:
-            count_when_done(bar, future, 1)
-        try:
-            scans = [future.result() for future in futures]
-        finally:
-            for future in futures:
-                future.cancel()
-    options = {"intensity": intensity, "angle": angle, "polarity": polarity, "model": model}
-    return OverturningSet(_dataset(scans, levels, measure, chosen, options), chosen, block)
+    spec = block_spec(chosen, block, levels, intensity, angle=angle, polarity=polarity, model=model)
+    steps = spec.extended(SwitchSpec, block=block, grid=spec.axes["level"])
+    data = run_survey(steps, MEASURE, store, executor, progress=progress, repair=repair)
+    return OverturningSet(_dataset(of_block(data, spec, chosen, block).load(), spec, chosen), chosen, block)
 
 
-def scan(work: Work, levels: np.ndarray, stop: np.ndarray) -> Scan:
-    """Follow one record at all levels, and locate its switches; CancelledError if `stop` is set."""
-    run = runs_of(work, stop)
-    grid = run(levels)
-    return Scan({name: grid[name] for name in KEPT}, locate_switches(run, levels, grid))
+def switches_below(steps: Steps, options: Mapping[str, int], stop: np.ndarray) -> Arrays:
+    """Follow blocks at levels, and locate the switch from each level below; CancelledError if `stop` is set."""
+    results = MEASURE.blank(steps.level.shape)
+    for number in np.unique(steps.record).tolist():
+        own = steps.record == number
+        run = runs_of(steps.spec, number, stop)
+        levels = np.unique([steps.below[own], steps.level[own]])
+        grid = run(levels)
+        below, above = (np.searchsorted(levels, each[own]) for each in (steps.below, steps.level))
+        kept = {name: grid[name][above] for name in KEPT}
+        for name, values in {**kept, **locate_switches(run, levels, grid, below, above)}.items():
+            results[name][own] = values
+    return results
 
 
-def runs_of(work: Work, stop: np.ndarray) -> Runs:
-    """Return the function that follows a block under a motion at given levels; the motion's tables are made once."""
-    block, motion = work.block, work.motion
+def runs_of(spec: SwitchSpec, number: int, stop: np.ndarray) -> Run:
+    """Return the function that follows a block under a motion at n levels; the motion's tables are made once."""
+    block, motion = spec.block, spec.motions[number]
     alpha, slenderness = block.frequency_parameter, block.critical_angle
-    base = motion.normalised(1.0, alpha)
-    p = sampled(base, full=work.full)
+    p = sampled(motion.normalised(1.0, alpha), full=spec.full)
     lift_off = block.acceleration(1.0)
 
     def run(levels: np.ndarray) -> Arrays:
         rows, inputs = np.empty(levels.size, ends.ENDING_ROW), np.empty(levels.size, kernel.RUN_ROW)
-        factors = work.measure.factor(levels, work.value, alpha, slenderness)
+        factors = spec.measure.factor(levels, spec.intensities[number], alpha, slenderness)
         # with the rounding of `GroundMotion.scaled` and `Block.system`, because a switch is located to the last digit
-        inputs["scale"] = work.polarity * (motion.factor * factors) / lift_off
-        inputs["restitution"], inputs["angle"] = block.restitution, work.angle
+        inputs["scale"] = spec.fixed["polarity"] * (motion.factor * factors) / lift_off
+        inputs["restitution"], inputs["angle"] = block.restitution, spec.fixed["angle"]
         inputs["critical_angle"] = slenderness
         if not kernel.run_batch(p, inputs, False, rows, stop):
             raise CancelledError("the survey was stopped")
-        return answers(rows, with_peak=False, assessed=not work.full)
+        return answers(rows, with_peak=False, assessed=not spec.full)
 
     return run
 
 
-def locate_switches(run: Runs, levels: np.ndarray, grid: Arrays) -> np.ndarray:
-    """Locate a switch between any two neighbouring levels with different outcomes, all at the same time, by bisection."""
-    fell = grid["outcome"] == OVERTURNED
-    places = np.flatnonzero(fell[1:] != fell[:-1])
-    low, high, above = levels[places], levels[places + 1], fell[places + 1]
-    mode = np.where(above, grid["impacts_since_rest"][places + 1], grid["impacts_since_rest"][places])
-    sure = grid["certified"] == CERTIFIED
-    below_sure = np.where(sure[places], low, np.nan)
-    above_sure = np.where(sure[places + 1], high, np.nan)
+def locate_switches(
+    run: Run, levels: np.ndarray, grid: Arrays, below: np.ndarray, above: np.ndarray
+) -> Arrays:
+    """Locate a switch between any two levels with different outcomes, all at the same time, by bisection.
+
+    `below` and `above` (n,) are places in `levels`. The results are NaN for pairs without a switch.
+    """
+    fell, sure = grid["outcome"] == OVERTURNED, grid["certified"] == CERTIFIED
+    places = np.flatnonzero(fell[below] != fell[above])
+    one, other = below[places], above[places]
+    low, high, overturns = levels[one], levels[other], fell[other]
+    mode = grid["impacts_since_rest"][np.where(overturns, other, one)]
+    below_sure, above_sure = np.where(sure[one], low, np.nan), np.where(sure[other], high, np.nan)
     while True:
         middle = low + 0.5 * (high - low)
         wide = np.flatnonzero((middle > low) & (middle < high))
@@ -202,55 +209,72 @@ def locate_switches(run: Runs, levels: np.ndarray, grid: Arrays) -> np.ndarray:
             break
         tried = run(middle[wide])
         overturned, certain = tried["outcome"] == OVERTURNED, tried["certified"] == CERTIFIED
-        upper = overturned == above[wide]
+        upper = overturned == overturns[wide]
         high[wide[upper]], low[wide[~upper]] = middle[wide[upper]], middle[wide[~upper]]
         above_sure[wide[upper & certain]] = middle[wide[upper & certain]]
         below_sure[wide[~upper & certain]] = middle[wide[~upper & certain]]
         mode[wide[overturned]] = tried["impacts_since_rest"][overturned]
-    values = np.empty(places.size, SWITCH_ROW)
-    values["record"] = 0
-    values["level"], values["overturns_above"], values["impacts_since_rest"] = high, above, mode
-    values["certified_below"], values["certified_above"] = below_sure, above_sure
-    values["certified"] = np.isfinite(below_sure) & np.isfinite(above_sure)
-    return values
+    results = np.full((len(SWITCH), below.size), np.nan)
+    results[:, places] = high, below_sure, above_sure, mode
+    return {f"switch_{name}": values for name, values in zip(SWITCH, results, strict=True)}
 
 
-def _dataset(
-    scans: list[Scan], levels: np.ndarray, measure: Intensity, records: RecordSet, options: dict[str, Any]
-) -> xr.Dataset:
-    """Return the dataset of the result."""
+MEASURE = Measurement(
+    TITLE,
+    switches_below,
+    (
+        *(Variable(f"switch_{name}", "float64", math.inf, {"long_name": COLUMNS[name]}) for name in SWITCH),
+        *(each for each in VARIABLES if each.name in KEPT),
+    ),
+    {},
+    METHOD,
+    shares="outcome",
+)
+
+
+def _switches(data: xr.Dataset) -> np.ndarray:
+    """Return the switches of all records, in ascending order of their levels."""
+    places = np.nonzero(np.isfinite(data.switch_level.values))
+    result = np.empty(places[0].size, SWITCH_ROW)
+    for name in SWITCH:
+        result[name] = data[f"switch_{name}"].values[places]
+    result["record"] = places[0]
+    result["overturns_above"] = data.outcome.values[places] == OVERTURNED
+    result["certified"] = np.isfinite(result["certified_below"]) & np.isfinite(result["certified_above"])
+    return result
+
+
+def _dataset(data: xr.Dataset, spec: MotionSpec, records: RecordSet) -> xr.Dataset:
+    """Return the dataset of the result from that of the survey."""
     import xarray as xr
 
-    for number, each in enumerate(scans):
-        each.switches["record"] = number
-    switches = np.concatenate([each.switches for each in scans])
-    unit = {"units": measure.unit or "1"}
-    bounds = float(levels[0]), float(levels[-1])
+    switches = _switches(data)
+    unit = {"units": spec.measure.unit or "1"}
+    bounds = float(data.level[0]), float(data.level[-1])
     intervals = [
-        intervals_of(each.grid["outcome"][0] == OVERTURNED, each.switches, *bounds) for each in scans
+        intervals_of(begins == OVERTURNED, switches[switches["record"] == number], *bounds)
+        for number, begins in enumerate(data.outcome.values[:, 0])
     ]
     lowest = np.array([each[0, 0] if each.size else np.nan for each in intervals])
     share = np.array([np.diff(each, axis=1).sum() for each in intervals]) / (bounds[1] - bounds[0])
     variables: dict[str, Any] = {
-        each.name: (("record", "level"), np.stack([one.grid[each.name] for one in scans]), each.attributes)
-        for each in VARIABLES
-        if each.name in KEPT
+        name: (("record", "level"), data[name].values, data[name].attrs) for name in KEPT
     }
     variables["lowest"] = "record", lowest, {"long_name": "lowest overturning level"} | unit
     variables["share"] = "record", share, {"long_name": "fraction of the range that overturns", "units": "1"}
     for name, long_name in COLUMNS.items():
         of_level = unit if name in ("level", "certified_below", "certified_above") else {}
         variables[f"switch_{name}"] = "switch", switches[name], {"long_name": long_name} | of_level
-    pga = np.array([motion.pga for motion in records])
-    level = "level", levels, {"long_name": measure.long_name, "symbol": measure.symbol} | unit
+    pga = [motion.pga for motion in records]
+    level = "level", data.level.values, spec.coordinate("level") | unit
     attributes = {
         "Conventions": "CF-1.11",
-        "title": "Overturning set of a block under ground motions",
+        "title": TITLE,
         "source": f"rocking {VERSION}",
-        **options,
-        "records_sha256": records.digest,
+        **{name: data.attrs[name] for name in ("intensity", "angle", "polarity", "model", "records_sha256")},
     }
-    named = with_names(xr.Dataset(variables, {"level": level}, attributes), records)
-    return named.assign_coords(
-        pga=("record", pga, {"long_name": "peak ground acceleration", "units": "m/s²"})
+    return xr.Dataset(variables, {"level": level}, attributes).assign_coords(
+        record=data.record,
+        name=data.name,
+        pga=("record", pga, {"long_name": "peak ground acceleration", "units": "m/s²"}),
     )

@@ -7,7 +7,7 @@ from hashlib import sha256
 from typing import Any
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY, frequency_parameter
@@ -18,7 +18,7 @@ from rocking.model.record_set import RecordSet
 from rocking.model.validation import Refusal, Text, WrongType, instance, reals, whole
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.run_survey import count_when_done, engine
-from rocking.survey.spec import SYSTEM, MotionSpec, Points, Runs, Values
+from rocking.survey.spec import SYSTEM, HarmonicSpec, MotionSpec, Points, Runs, Values, points
 
 AT_ONCE = 2048
 """Points per batch."""
@@ -71,6 +71,58 @@ def span(name: str, values: Any, widest: tuple[float, float] | None = None) -> t
 
 def _kind_of(array: np.ndarray) -> str:
     return f"the number {array.item():.6g}" if array.ndim == 0 else f"an array of shape {array.shape}"
+
+
+@frozen(eq=False)
+class RandomStartSpec(HarmonicSpec):
+    """Survey of systems on a harmonic base with a further axis `sample`, the number of a random initial state."""
+
+    starts: np.ndarray = field(kw_only=True)  # (samples, 2): angle and velocity along the axis `sample`
+    stated: dict[str, Any] = field(kw_only=True)
+
+    def with_axes(self, axes: dict[str, np.ndarray]) -> RandomStartSpec:
+        """Return the survey over other axes of the same names, with their initial states alone."""
+        return evolve(self, axes=axes, starts=self._starts(axes["sample"]))
+
+    def inputs(self, values: Values) -> Points:
+        """Return the systems and initial states of n points."""
+        varied = {name: each for name, each in values.items() if name != "sample"}
+        angle, velocity = self._starts(values["sample"]).T
+        return points(varied | {"angle": angle, "velocity": velocity}, self.fixed)
+
+    def _starts(self, numbers: np.ndarray) -> np.ndarray:
+        return self.starts[np.searchsorted(self.axes["sample"], numbers)]
+
+    def described(self) -> dict[str, Any]:
+        """Return the quantities that do not vary, by name, the seed and the ranges of the initial states."""
+        return super().described() | self.stated
+
+    def coordinate(self, name: str) -> dict[str, str]:
+        """Return the attributes of a coordinate."""
+        if name == "sample":
+            return {"long_name": "number of the initial state, from 0"}
+        return super().coordinate(name)
+
+
+def random_starts(
+    spec: HarmonicSpec,
+    ends: dict[str, tuple[float, float]],
+    samples: int,
+    random: np.random.Generator,
+    seed: int,
+) -> RandomStartSpec:
+    """Return a survey repeated for random initial states in the ranges `ends` of angle and velocity.
+
+    The first initial states do not depend on their number, so that a store can be extended.
+    """
+    low, high = zip(ends["angle"], ends["velocity"], strict=True)
+    count = whole("samples", samples, 1, MAX_SAMPLES)
+    return RandomStartSpec(
+        spec.axes | {"sample": np.arange(float(count))},
+        spec.fixed,
+        starts=random.uniform(low, high, (count, 2)),
+        stated={"seed": seed, "angle_range": list(ends["angle"]), "velocity_range": list(ends["velocity"])},
+    )
 
 
 TITLE = "Repeatability of the response of a free-standing block on a shaking base"

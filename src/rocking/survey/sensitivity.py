@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import os
+from collections.abc import Iterable
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from attrs import evolve
 
 from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
-from rocking.model.progress import Bar
 from rocking.model.record_results import Sensitivity
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.validation import Refusal, instance, refuse_if, whole
@@ -20,17 +19,21 @@ from rocking.survey.fragility_curve import clustered_fractions, two_level_weight
 from rocking.survey.incremental_dynamic_analysis import block_spec, of_block
 from rocking.survey.random_points import MAX_SEED, fingerprints
 from rocking.survey.run_survey import run_survey
+from rocking.survey.spec import MotionSpec, Runs, Values
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.survey.spec import MotionSpec
-
 TITLE = "Sensitivity of the verdicts of a free-standing block under ground motions"
 AMPLITUDE, RESTITUTION = 0.01, 0.02
 REPLICATES = 1000
-CHANGES = 5
-NONE = "none"
+CHANGES = ("amplitude + 1 %", "amplitude − 1 %", "start + ½ step", f"e + {RESTITUTION}", f"e − {RESTITUTION}")
+"""Names of the changes, which have the numbers 1 to 5; 0 is no change."""
+FACTORS = (1.0, 1.0 + AMPLITUDE, 1.0 - AMPLITUDE, 1.0, 1.0, 1.0)
+RISES = np.array([0.0, 0.0, 0.0, 0.0, RESTITUTION, -RESTITUTION])
+"""Factor of the amplitude, and change of the restitution, of each number."""
+LATER = 3
+"""Number of the change of the start."""
 
 
 def sensitivity(
@@ -41,8 +44,10 @@ def sensitivity(
     intensity: str = "scale",
     model: str = "slender",
     seed: int = 0,
+    store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
+    repair: bool = False,
 ) -> Sensitivity:
     """Estimate the fraction of verdicts that change if the amplitude, the start or the restitution changes slightly.
 
@@ -67,7 +72,7 @@ def sensitivity(
         Default: "slender".
     seed : int
         Random seed of the bootstrap of the intervals, in [0, 2³² − 1]. Default: 0.
-    executor, progress
+    store, executor, progress, repair
         As in `parametric_map`.
 
     Returns
@@ -77,8 +82,8 @@ def sensitivity(
 
     Raises
     ------
-    TypeError, ValueError
-        If an argument has the wrong type or lies outside its range.
+    TypeError, ValueError, ImportError, OSError
+        As in `parametric_map`, or if a record has less than two samples.
 
     See Also
     --------
@@ -108,46 +113,54 @@ def sensitivity(
         f"have a restitution in [{RESTITUTION}, {1.0 - RESTITUTION}]",
         block.restitution,
     )
-    spec = block_spec(chosen, block, levels, intensity, model=model)
-    runs: dict[str, xr.Dataset] = {}
-    with Bar(CHANGES + 1, "changes", shown=instance("progress", progress, bool)) as bar:
-        for name, changed in _changes(spec, chosen):
-            data = run_survey(changed, ending(TITLE, with_peak=False), None, executor)
-            runs[name] = of_block(data, changed, chosen, block).transpose("record", "level")
-            bar.advance(1)
-    return _summed_up(runs, order, random, block)
+    for motion in chosen:
+        if motion.acceleration.size < 2:
+            raise Refusal("records", "have two samples at least", motion.acceleration.tolist())
+    unchanged = block_spec(chosen, block, levels, intensity, model=model)
+    # runs of one record and change are neighbours, which share tables
+    spec = unchanged.extended(ChangedMotionSpec, {"change": np.arange(1.0 + len(CHANGES))})
+    measure = ending(TITLE, with_peak=False)
+    data = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
+    return _summed_up(of_block(data, spec, chosen, block).load(), order, random, block)
 
 
-def _changes(spec: MotionSpec, records: RecordSet) -> Iterator[tuple[str, MotionSpec]]:
-    """Yield the survey itself and each change of it, by name."""
-    yield NONE, spec
-    for sign, factor in (("+", 1.0 + AMPLITUDE), ("−", 1.0 - AMPLITUDE)):
-        levels = spec.axes["level"] * factor**spec.measure.power
-        yield f"amplitude {sign} 1 %", evolve(spec, axes=spec.axes | {"level": levels})
-    yield "start + ½ step", evolve(spec, motions=dict(enumerate(map(_between, records))))
-    for sign, change in (("+", RESTITUTION), ("−", -RESTITUTION)):
-        fixed = spec.fixed | {"restitution": spec.fixed["restitution"] + change}
-        yield f"e {sign} {RESTITUTION}", evolve(spec, fixed=fixed)
+class ChangedMotionSpec(MotionSpec):
+    """Survey of ground motions with a further axis `change`, the number of a small change of a run."""
+
+    def inputs(self, values: Values) -> Runs:
+        """Return the runs at n points; the motions of a later start have negative numbers."""
+        varied = dict(values)
+        change = varied.pop("change").astype(int)
+        varied["level"] = varied["level"] * np.array([each**self.measure.power for each in FACTORS])[change]
+        varied["restitution"] = self.fixed["restitution"] + RISES[change]
+        runs = super().inputs(varied)
+        later = change == LATER
+        moved = {~number: _between(self.motions[number]) for number in np.unique(runs.record[later]).tolist()}
+        return runs._replace(
+            motions={**runs.motions, **moved}, record=np.where(later, ~runs.record, runs.record)
+        )
+
+    def coordinate(self, name: str) -> dict[str, str]:
+        """Return the attributes of a coordinate."""
+        if name == "change":
+            return {"long_name": "number of the change, from 0, no change"}
+        return super().coordinate(name)
 
 
 def _between(motion: GroundMotion) -> GroundMotion:
     """Return the motion sampled half a step later."""
     values = motion.acceleration
-    if values.size < 2:
-        raise Refusal("records", "have two samples at least", values.tolist())
     return GroundMotion(0.5 * (values[1:] + values[:-1]), step=motion.step, name=motion.name)
 
 
-def _summed_up(
-    runs: dict[str, xr.Dataset], order: np.ndarray, random: np.random.Generator, block: Block
-) -> Sensitivity:
+def _summed_up(runs: xr.Dataset, order: np.ndarray, random: np.random.Generator, block: Block) -> Sensitivity:
     import xarray as xr
 
-    unchanged, names = runs[NONE], [name for name in runs if name != NONE]
-    fell = {name: each.outcome.values == OVERTURNED for name, each in runs.items()}
-    differs = np.stack([fell[name] != fell[NONE] for name in names], axis=-1)
-    sure = {name: each.certified.values != UNDECIDED for name, each in runs.items()}
-    doubtful = np.stack([~(sure[name] & sure[NONE]) for name in names], axis=-1)
+    runs = runs.transpose("record", "level", "change")
+    fell, sure = runs.outcome.values == OVERTURNED, runs.certified.values != UNDECIDED
+    unchanged = fell[..., 0]
+    differs = fell[..., 1:] != fell[..., :1]
+    doubtful = ~(sure[..., 1:] & sure[..., :1])
     weights = np.broadcast_to(
         two_level_weights(len(order), 1, REPLICATES, random), (REPLICATES, *differs.shape[:2])
     )
@@ -157,7 +170,7 @@ def _summed_up(
         "share_low": (shares.low, "lower end of the 95 % interval"),
         "share_high": (shares.high, "upper end of the 95 % interval"),
         "flipped": (differs.sum(axis=(0, 1)), "number of runs whose verdict differs"),
-        "runs": (np.full(len(names), fell[NONE].size), "number of runs"),
+        "runs": (np.full(len(CHANGES), unchanged.size), "number of runs"),
         "undecided": (
             doubtful.sum(axis=(0, 1)),
             "number of runs that are not certified, with or without the change",
@@ -168,8 +181,8 @@ def _summed_up(
         for name, (values, text) in columns.items()
     }
     over = ("record", "level")
-    variables["overturned"] = (over, fell[NONE], {"long_name": "whether the unchanged block overturns"})
+    variables["overturned"] = (over, unchanged, {"long_name": "whether the unchanged block overturns"})
     variables["differs"] = ((*over, "change"), differs, {"long_name": "whether the verdict differs"})
-    coordinates = {"change": names} | {name: unchanged[name] for name in ("record", "level", "name")}
-    kept = {name: value for name, value in unchanged.attrs.items() if name != "with_peak"}
+    coordinates = {"change": list(CHANGES)} | {name: runs[name] for name in ("record", "level", "name")}
+    kept = {name: value for name, value in runs.attrs.items() if name != "with_peak"}
     return Sensitivity(xr.Dataset(variables, coordinates, kept), block)

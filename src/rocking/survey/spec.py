@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
-from attrs import evolve, field, frozen
+from attrs import evolve, field, fields, frozen
 
 from rocking.kernels.forcing import parameters as numbers
 from rocking.model.block import INERTIA_RATIOS, RECTANGLE, Block
@@ -47,6 +47,7 @@ from rocking.model.validation import (
 
 Values = Mapping[str, np.ndarray]
 Spec = TypeVar("Spec", bound="SurveySpec")
+Motions = TypeVar("Motions", bound="MotionSpec")
 
 
 @frozen(eq=False)
@@ -56,6 +57,9 @@ class SurveySpec:
     comment: ClassVar[str] = ""
     contiguous: ClassVar[bool] = False
     """Flag: the points of a batch are neighbours, because neighbours share some of the work."""
+
+    refines: ClassVar[bool] = True
+    """Flag: a result does not depend on the spacing, so that a store has coarser levels and can be refined."""
 
     axes: dict[str, np.ndarray]
     fixed: dict[str, float] = field(factory=dict)
@@ -363,7 +367,16 @@ class MotionSpec(SurveySpec):
         """Flag: the blocks follow the full equation of motion."""
         return self.model == "full"
 
-    def with_axes(self, axes: dict[str, np.ndarray]) -> MotionSpec:
+    def extended(
+        self, kind: type[Motions], further: Mapping[str, np.ndarray] | None = None, **more: Any
+    ) -> Motions:
+        """Return the survey as one of a subclass, with the fields `more`, and with further axes before the levels."""
+        own = {each.name: getattr(self, each.name) for each in fields(MotionSpec)}
+        level = {"level": self.axes["level"]} if "level" in self.axes else {}
+        others = {name: values for name, values in self.axes.items() if name not in level}
+        return kind(**{**own, "axes": {**others, **(further or {}), **level}, **more})
+
+    def with_axes(self: Motions, axes: dict[str, np.ndarray]) -> Motions:
         """Return the survey over other axes of the same names, with the motions of these axes alone."""
         numbers = axes["record"].astype(int).tolist() if "record" in axes else list(self.motions)
         return evolve(

@@ -22,6 +22,7 @@ FORMAT, READABLE = 3, (2, 3)
 """Version of the file format, and those that can be read. Tiles of format 2 have no digests."""
 DEFAULT_DIGITS, ALL_DIGITS = 6, 17
 """Digits of differing numbers in messages: as many as show the difference."""
+MAX_HALVINGS = 31
 MAX_DIFFERENCES = 160
 """Longest text of the differences of two surveys, in characters."""
 
@@ -61,7 +62,7 @@ def read_layout(stored: Mapping[str, Any]) -> Layout:
     for name, values in axes.items():
         if (
             values.ndim != 1
-            or values.size < 2
+            or values.size < 1
             or not np.isfinite(values).all()
             or (np.diff(values) <= 0).any()
         ):
@@ -157,7 +158,8 @@ def joined(path: str, stored: Layout, spec: SurveySpec) -> Layout:
 
     Raises ValueError for axes that omit or move values of the store.
     """
-    pairs = [_join(path, name, values, spec.axes[name]) for name, values in stored.axes.items()]
+    most = MAX_HALVINGS if spec.refines else 0
+    pairs = [_join(path, name, values, spec.axes[name], most) for name, values in stored.axes.items()]
     axes = {name: values for name, (values, _) in zip(stored.axes, pairs, strict=True)}
     halvings = [times for _, times in pairs]
     more = [tuple(number < times for times in halvings) for number in range(max(halvings))]
@@ -168,23 +170,24 @@ def joined(path: str, stored: Layout, spec: SurveySpec) -> Layout:
     return layout
 
 
-def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np.ndarray, int]:
-    """Return the requested axis values, with equal values exactly as stored, and the number of halvings."""
-    for times in range(32):
+def _join(path: str, name: str, there: np.ndarray, here: np.ndarray, most: int) -> tuple[np.ndarray, int]:
+    """Return the requested axis values, with equal values exactly as stored, and the number of halvings, at most `most`."""
+    for times in range(most + 1):
         step = 2**times
         reach = step * (there.size - 1) + 1
         if reach > here.size:
             break
-        nearest = np.diff(there).min() / step
+        nearest = np.diff(there).min() / step if there.size > 1 else 0.0
         if np.abs(here[:reach:step] - there).max() <= SAME * nearest:
             exact = here.copy()
             exact[:reach:step] = there
             return exact, times
+    half = " or at half the spacing are" if most else " are"
     raise Statement(
         "{store}",
         f"{formatted_path(path)} holds {there.size} values of {{{name}}} from {there[0]:.6g} to {there[-1]:.6g}; "
-        f"the requested {here.size} from {here[0]:.6g} to {here[-1]:.6g} omit some of them",
-        remedy="give these values; more values beyond the last or at half the spacing are possible",
+        f"the requested {here.size} from {here[0]:.6g} to {here[-1]:.6g} {'omit some of them' if most else 'are others'}",
+        remedy=f"give these values; more values beyond the last{half} possible",
     )
 
 
@@ -199,6 +202,8 @@ def _flat(metadata: Mapping[str, Any]) -> dict[str, Any]:
 def _difference(name: str, there: Any, here: Any) -> str:
     if name == "over":
         return f"the axes are {' and '.join(map(str, there or ()))} there and {' and '.join(here)} here"
+    if name == "records_sha256":
+        return "the ground motions are others"
     if isinstance(there, list) and isinstance(here, list):  # entries of only one of the lists
         there, here = (
             [each for each in there if each not in here],

@@ -111,10 +111,10 @@ class Tile:
 
 
 def levels(spec: SurveySpec) -> list[Level]:
-    """Return the levels of a new survey, the coarsest first; each level halves the spacing along the long axes."""
+    """Return the levels of a new survey, the coarsest first; each level halves the spacing along the long axes, if the survey refines."""
     grids = [spec.axes]
     halvings: list[tuple[bool, ...]] = []
-    while any(values.size > COARSEST for values in grids[0].values()):
+    while spec.refines and any(values.size > COARSEST for values in grids[0].values()):
         halvings.insert(0, tuple(values.size > COARSEST for values in grids[0].values()))
         grids.insert(0, thinned(grids[0], halvings[0]))
     edges = tile_edges(spec.shape)
