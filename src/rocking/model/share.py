@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from itertools import starmap
 from statistics import NormalDist
 from typing import Any
 
@@ -125,6 +126,28 @@ class Share:
 
     def __str__(self) -> str:
         return f"{_percent(self.value)} % ({_percent(self.low)}–{_percent(self.high)} %)"
+
+
+def shares_of(count: Any, of: Any, unknown: Any = 0) -> tuple[Share, ...]:
+    """Return the fractions of arrays (n,) of counts, total numbers and numbers of undetermined cases, which broadcast."""
+    rows = np.broadcast_arrays(np.atleast_1d(count), of, unknown)
+    return tuple(starmap(Share, np.stack(rows, axis=1).tolist()))
+
+
+def interval_variables(
+    along: str, shares: Iterable[Share], name: str, meaning: str
+) -> dict[str, tuple[str, Any, dict[str, str]]]:
+    """Return fractions along a dimension as three variables of a dataset: the fraction and both ends of its interval."""
+    texts = {
+        "": meaning,
+        "_low": f"{meaning}, lower end of its 95 % interval",
+        "_high": f"{meaning}, upper end of its 95 % interval",
+    }
+    columns = np.array([(each.value, each.low, each.high) for each in shares]).T
+    return {
+        name + end: (along, column, {"long_name": text, "units": "1"})
+        for (end, text), column in zip(texts.items(), columns, strict=True)
+    }
 
 
 SHARE_TEXTS = {

@@ -11,7 +11,7 @@ import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.quantity import ANGLE
-from rocking.model.share import Share
+from rocking.model.share import Share, interval_variables, shares_of
 from rocking.model.survey_results import Attractor, BasinMap, SafeBasin
 from rocking.model.system import System, check_between
 from rocking.model.validation import instance, refuse_if, whole, within
@@ -28,7 +28,7 @@ from rocking.survey.spec import (
     system_quantities,
 )
 from rocking.survey.uncertainty_exponent import WIDTHS, Boundaries
-from rocking.survey.verdict_measures import interval_variables, outcome
+from rocking.survey.verdict_measures import outcome
 from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
 
 if TYPE_CHECKING:
@@ -154,12 +154,8 @@ def basin_map(
 
 def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[Share, ...]:
     """Return the fraction of each attractor; undetermined initial states may belong to any of them."""
-    undetermined = [each.kind is Kind.UNDETERMINED for each in attractors]
-    unknown = int(counts[undetermined].sum())
-    return tuple(
-        Share(count, counts.sum(), 0 if not_known else unknown)
-        for count, not_known in zip(counts, undetermined, strict=True)
-    )
+    undetermined = np.array([each.kind is Kind.UNDETERMINED for each in attractors])
+    return shares_of(counts, counts.sum(), np.where(undetermined, 0, counts[undetermined].sum()))
 
 
 def grid_starts(spec: HarmonicSpec) -> np.ndarray:
@@ -283,26 +279,24 @@ def _summed_up(
 ) -> tuple[xr.Dataset, tuple[Share, ...], float, float]:
     import xarray as xr
 
-    shares = tuple(Share(np.count_nonzero(each != kernel.OVERTURNS), each.size) for each in kinds)
-    open_ones = np.array([np.mean(each == kernel.UNDETERMINED) for each in kinds])
+    safe = shares_of(np.count_nonzero(kinds != kernel.OVERTURNS, axis=1), kinds.shape[1])
     period = spec.fixed.get("period") or 2.0 * np.pi / spec.fixed["frequency"]
     exact = first_order = np.nan
     if "brace_angle" not in spec.fixed and not spec.full:
         exact = heteroclinic_amplitude(period, spec.fixed["restitution"])
         first_order = melnikov_amplitude(period, spec.fixed["restitution"])
-    variables = interval_variables(
-        "safe", shares, "amplitude", "fraction of the initial states that do not overturn"
-    )
+    meaning = "fraction of the initial states that do not overturn"
+    variables = interval_variables("amplitude", safe, "safe", meaning)
     variables["undetermined"] = (
         "amplitude",
-        open_ones,
+        np.mean(kinds == kernel.UNDETERMINED, axis=1),
         {"long_name": "fraction of the initial states whose response is undetermined", "units": "1"},
     )
     metadata = attributes(spec, measure) | {
-        "samples": shares[0].of,
+        "samples": kinds.shape[1],
         **drawn,
         "heteroclinic_amplitude": exact,
         "melnikov_amplitude": first_order,
     }
     coordinates = {"amplitude": ("amplitude", spec.axes["amplitude"], coordinate("amplitude"))}
-    return xr.Dataset(variables, coordinates, metadata), shares, exact, first_order
+    return xr.Dataset(variables, coordinates, metadata), safe, exact, first_order

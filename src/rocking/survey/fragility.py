@@ -215,9 +215,7 @@ def _dataset(
 ) -> xr.Dataset:
     over = ("limit", "level")
     columns: dict[str, tuple[np.ndarray, str]] = {
-        "fraction": (fractions.value, "fraction of the runs that exceed the limit"),
-        "fraction_low": (fractions.low, "lower end of the 95 % interval"),
-        "fraction_high": (fractions.high, "upper end of the 95 % interval"),
+        **fractions.columns("fraction", "fraction of the runs that exceed the limit"),
         "effective_records": (fractions.effective, "number of independent records behind the interval"),
     }
     variables: dict[str, Any] = {

@@ -23,6 +23,14 @@ class Fractions(NamedTuple):
     high: np.ndarray
     effective: np.ndarray
 
+    def columns(self, name: str, meaning: str) -> dict[str, tuple[np.ndarray, str]]:
+        """Return the fraction and the ends of its interval, each with its description, by the names of the variables."""
+        return {
+            name: (self.value, meaning),
+            f"{name}_low": (self.low, "lower end of the 95 % interval"),
+            f"{name}_high": (self.high, "upper end of the 95 % interval"),
+        }
+
 
 def two_level_weights(records: int, samples: int, replicates: int, random: np.random.Generator) -> np.ndarray:
     """Return how often each run counts in each replicate of a two-level bootstrap, shape (replicates, records, samples).

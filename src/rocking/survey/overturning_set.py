@@ -73,7 +73,7 @@ class SwitchSpec(MotionSpec):
         """Return the steps to n points."""
         level = values["level"]
         below = self.grid[np.maximum(np.searchsorted(self.grid, level) - 1, 0)]
-        return Steps(self, values.get("record", np.zeros(level.size)).astype(int), below, level)
+        return Steps(self, self.arguments(values)["record"].astype(int), below, level)
 
 
 def overturning_set(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from concurrent.futures import CancelledError, Executor
 from hashlib import sha256
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -77,8 +77,9 @@ def _kind_of(array: np.ndarray) -> str:
 class RandomStartSpec(HarmonicSpec):
     """Survey of systems on a harmonic base with a further axis `sample`, the number of a random initial state."""
 
+    numbers: ClassVar[dict[str, str]] = {"sample": "number of the initial state, from 0"}
+
     starts: np.ndarray = field(kw_only=True)  # (samples, 2): angle and velocity along the axis `sample`
-    stated: dict[str, Any] = field(kw_only=True)
 
     def with_axes(self, axes: dict[str, np.ndarray]) -> RandomStartSpec:
         """Return the survey over other axes of the same names, with their initial states alone."""
@@ -92,16 +93,6 @@ class RandomStartSpec(HarmonicSpec):
 
     def _starts(self, numbers: np.ndarray) -> np.ndarray:
         return self.starts[np.searchsorted(self.axes["sample"], numbers)]
-
-    def described(self) -> dict[str, Any]:
-        """Return the quantities that do not vary, by name, the seed and the ranges of the initial states."""
-        return super().described() | self.stated
-
-    def coordinate(self, name: str) -> dict[str, str]:
-        """Return the attributes of a coordinate."""
-        if name == "sample":
-            return {"long_name": "number of the initial state, from 0"}
-        return super().coordinate(name)
 
 
 def random_starts(
@@ -170,13 +161,15 @@ class UncertainMotionSpec(MotionSpec):
     Levels that compare the ground motion with a block refer to the nominal block.
     """
 
+    numbers: ClassVar[dict[str, str]] = MotionSpec.numbers | {
+        "sample": "number of the sample of the block, from 0"
+    }
+
     drawn: np.ndarray = field(kw_only=True)  # (records, samples, 3): size, slenderness, restitution
-    stated: dict[str, float] = field(kw_only=True)
 
     def inputs(self, values: Values) -> Runs:
         """Return the runs at n points."""
-        count = next(iter(values.values())).size
-        arguments = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
+        arguments = self.arguments(values)
         record = arguments["record"].astype(int)
         own = dict(
             zip(
@@ -193,16 +186,6 @@ class UncertainMotionSpec(MotionSpec):
         levels = np.array([self.intensities[number] for number in record.tolist()])
         factor = self.measure.factor(arguments["level"], levels, *nominal) * arguments["polarity"]
         return runs._replace(factor=factor / (GRAVITY * own["slenderness"]))
-
-    def described(self) -> dict[str, Any]:
-        """Return the quantities that do not vary, by name, and the spreads."""
-        return super().described() | self.stated
-
-    def coordinate(self, name: str) -> dict[str, str]:
-        """Return the attributes of a coordinate."""
-        if name == "sample":
-            return {"long_name": "number of the sample of the block, from 0"}
-        return super().coordinate(name)
 
 
 def block_samples(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from concurrent.futures import Executor
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -127,6 +127,8 @@ def sensitivity(
 class ChangedMotionSpec(MotionSpec):
     """Survey of ground motions with a further axis `change`, the number of a small change of a run."""
 
+    numbers: ClassVar[dict[str, str]] = MotionSpec.numbers | {"change": "number of the change; 0: none"}
+
     def inputs(self, values: Values) -> Runs:
         """Return the runs at n points; the motions of a later start have negative numbers."""
         varied = dict(values)
@@ -139,12 +141,6 @@ class ChangedMotionSpec(MotionSpec):
         return runs._replace(
             motions={**runs.motions, **moved}, record=np.where(later, ~runs.record, runs.record)
         )
-
-    def coordinate(self, name: str) -> dict[str, str]:
-        """Return the attributes of a coordinate."""
-        if name == "change":
-            return {"long_name": "number of the change, from 0, no change"}
-        return super().coordinate(name)
 
 
 def _between(motion: GroundMotion) -> GroundMotion:
@@ -166,9 +162,7 @@ def _summed_up(runs: xr.Dataset, order: np.ndarray, random: np.random.Generator,
     )
     shares = clustered_fractions(differs[order], weights, doubtful[order])
     columns: dict[str, tuple[Any, str]] = {
-        "share": (shares.value, "fraction of the runs whose verdict differs"),
-        "share_low": (shares.low, "lower end of the 95 % interval"),
-        "share_high": (shares.high, "upper end of the 95 % interval"),
+        **shares.columns("share", "fraction of the runs whose verdict differs"),
         "flipped": (differs.sum(axis=(0, 1)), "number of runs whose verdict differs"),
         "runs": (np.full(len(CHANGES), unchanged.size), "number of runs"),
         "undecided": (

@@ -12,7 +12,7 @@ from rocking.kernels.classify import verdict_record as kernel
 from rocking.model.progress import Bar
 from rocking.model.proof import ProvedShare
 from rocking.model.quantity import SYSTEM_QUANTITIES
-from rocking.model.share import Share
+from rocking.model.share import Share, interval_variables, shares_of
 from rocking.model.survey_results import ChaosShare, ParametricMap, check_survey
 from rocking.model.system import NO_BRACES, State, System, system_of
 from rocking.model.validation import Refusal, instance, whole
@@ -22,7 +22,7 @@ from rocking.response.classify import KINDS, classify
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
 from rocking.survey.spec import HarmonicSpec, coordinate, points, quantity_axis, system_quantities
-from rocking.survey.verdict_measures import interval_variables, outcome
+from rocking.survey.verdict_measures import outcome
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -129,9 +129,9 @@ def _summed_up(
     import xarray as xr
 
     of = int(counts[0].sum())
-    shares = tuple(Share(each[kernel.CHAOTIC], of, each[kernel.UNDETERMINED]) for each in counts)
-    variables: dict[str, Any] = dict(
-        interval_variables("chaotic", shares, "restitution", "fraction of chaotic responses")
+    chaotic = shares_of(counts[:, kernel.CHAOTIC], of, counts[:, kernel.UNDETERMINED])
+    variables: dict[str, Any] = interval_variables(
+        "restitution", chaotic, "chaotic", "fraction of chaotic responses"
     )
     variables["share"] = (
         ("restitution", "response"),
@@ -147,7 +147,7 @@ def _summed_up(
         "seed": seed,
         **{f"{name}_range": list(ends) for name, ends in spans.items()},
     }
-    return xr.Dataset(variables, coordinates, metadata), shares
+    return xr.Dataset(variables, coordinates, metadata), chaotic
 
 
 MAX_POINTS = 100_000

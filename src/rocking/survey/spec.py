@@ -61,8 +61,13 @@ class SurveySpec:
     refines: ClassVar[bool] = True
     """Flag: a result does not depend on the spacing, so that a store has coarser levels and can be refined."""
 
+    numbers: ClassVar[dict[str, str]] = {}
+    """Descriptions of the axes that are numbers of something, by name."""
+
     axes: dict[str, np.ndarray]
     fixed: dict[str, float] = field(factory=dict)
+    stated: dict[str, Any] = field(factory=dict, kw_only=True)
+    """Further values that the results depend on, by name."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -78,9 +83,19 @@ class SurveySpec:
         """Return the survey over other axes of the same names, such as those of a tile."""
         return evolve(self, axes=axes)
 
+    @property
+    def full(self) -> bool:
+        """Flag: the blocks follow the full equation of motion."""
+        return "critical_angle" in self.axes or "critical_angle" in self.fixed
+
     def inputs(self, values: Values) -> Any:
         """Return the inputs of a measurement at n points, from the values (n,) of the varying quantities."""
         raise NotImplementedError
+
+    def arguments(self, values: Values) -> dict[str, np.ndarray]:
+        """Return the values (n,) of all quantities at n points."""
+        count = next(iter(values.values())).size
+        return {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
 
     def described(self) -> dict[str, Any]:
         """Return the quantities that do not vary, by name, in the order of the dataset attributes."""
@@ -88,7 +103,7 @@ class SurveySpec:
 
     def coordinate(self, name: str) -> dict[str, str]:
         """Return the attributes of a coordinate."""
-        raise NotImplementedError
+        return {"long_name": self.numbers[name]} if name in self.numbers else coordinate(name)
 
 
 def axis(name: str, values: Any, span: tuple[float, float]) -> np.ndarray:
@@ -170,22 +185,13 @@ class HarmonicSpec(SurveySpec):
         "the base acceleration is amplitude cos(frequency time + phase)."
     )
 
-    @property
-    def full(self) -> bool:
-        """True if the blocks follow the full equation of motion."""
-        return "critical_angle" in self.axes or "critical_angle" in self.fixed
-
     def inputs(self, values: Values) -> Points:
         """Return the systems and initial states of n points."""
         return points(values, self.fixed)
 
     def described(self) -> dict[str, Any]:
         """Return the quantities that do not vary, by name, in the order of the dataset attributes."""
-        return {name: self.fixed[name] for name in SYSTEM_QUANTITIES if name in self.fixed}
-
-    def coordinate(self, name: str) -> dict[str, str]:
-        """Return the attributes of a coordinate."""
-        return coordinate(name)
+        return {name: self.fixed[name] for name in SYSTEM_QUANTITIES if name in self.fixed} | self.stated
 
 
 def coordinate(name: str) -> dict[str, str]:
@@ -355,6 +361,7 @@ class MotionSpec(SurveySpec):
 
     comment = "A peak is in units of the critical angle; impacts of chattering sequences do not count."
     contiguous = True
+    numbers: ClassVar[dict[str, str]] = {"record": "number of the record, from 0"}
 
     motions: dict[int, GroundMotion] = field(factory=dict)
     intensities: dict[int, float] = field(factory=dict)
@@ -388,8 +395,7 @@ class MotionSpec(SurveySpec):
 
     def inputs(self, values: Values) -> Runs:
         """Return the runs at n points."""
-        count = next(iter(values.values())).size
-        arguments = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
+        arguments = self.arguments(values)
         record = np.asarray(arguments["record"], dtype=np.int64)
         ratio, slenderness = self.fixed["inertia_ratio"], arguments["slenderness"]
         alpha = _each(frequency_parameter, arguments["size"], ratio)
@@ -412,19 +418,18 @@ class MotionSpec(SurveySpec):
     def described(self) -> dict[str, Any]:
         """Return the quantities that do not vary, by name, and the digest of the records."""
         fixed = {name: self.fixed[name] for name in (*RUN_QUANTITIES, "inertia_ratio") if name in self.fixed}
-        return fixed | {"model": self.model, "intensity": self.measure.name, "records_sha256": self.digest}
+        own = {"model": self.model, "intensity": self.measure.name, "records_sha256": self.digest}
+        return fixed | own | self.stated
 
     def coordinate(self, name: str) -> dict[str, str]:
         """Return the attributes of a coordinate."""
-        if name == "record":
-            return {"long_name": "number of the record, from 0"}
         if name == "level":
             return {
                 "long_name": self.measure.long_name,
                 "symbol": self.measure.symbol,
                 "units": self.measure.unit,
             }
-        return RUN_QUANTITIES[name].attributes
+        return super().coordinate(name) if name in self.numbers else RUN_QUANTITIES[name].attributes
 
 
 def motion_spec(
@@ -518,26 +523,16 @@ class PulseSpec(SurveySpec):
 
     kind: str = field(kw_only=True)
 
-    @property
-    def full(self) -> bool:
-        """Flag: the blocks follow the full equation of motion."""
-        return "critical_angle" in self.axes or "critical_angle" in self.fixed
-
     def inputs(self, values: Values) -> Pulses:
         """Return the pulses at n points."""
-        count = next(iter(values.values())).size
-        arguments = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
+        arguments = self.arguments(values)
         duration = turns(self.kind) * math.tau / arguments["frequency"]
-        angle = arguments["critical_angle"] if self.full else np.zeros(count)
+        angle = arguments["critical_angle"] if self.full else np.zeros(duration.size)
         return Pulses(self.kind, arguments["amplitude"], duration, arguments["restitution"], angle, self.full)
 
     def described(self) -> dict[str, Any]:
         """Return the kind of the pulse and the quantities that do not vary, by name."""
-        return {"pulse": self.kind} | self.fixed
-
-    def coordinate(self, name: str) -> dict[str, str]:
-        """Return the attributes of a coordinate."""
-        return SYSTEM_QUANTITIES[name].attributes
+        return {"pulse": self.kind} | self.fixed | self.stated
 
 
 def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:

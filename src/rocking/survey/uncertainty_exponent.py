@@ -10,7 +10,7 @@ import numpy as np
 from attrs import frozen
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model.share import LEVEL, Share
+from rocking.model.share import LEVEL, shares_of
 from rocking.model.survey_results import UncertaintyExponent
 from rocking.model.system import System
 from rocking.survey.attractors import label_attractors
@@ -66,8 +66,8 @@ def exponent(reach: np.ndarray, labels: np.ndarray) -> UncertaintyExponent | Non
     error = float(np.sqrt(np.linalg.inv(information)[1, 1] * max(misfit, 1.0)))
     half = NormalDist().inv_cdf(0.5 + 0.5 * LEVEL) * error
     value = float(fitted[1])
-    uncertain = tuple(Share(count, each) for count in counts)
-    return UncertaintyExponent(value, value - half, value + half, tuple(reach.tolist()), uncertain, misfit)
+    ends = value - half, value + half
+    return UncertaintyExponent(value, *ends, tuple(reach.tolist()), shares_of(counts, each), misfit)
 
 
 def _scored(design: np.ndarray, counts: np.ndarray, each: float) -> tuple[np.ndarray, np.ndarray]:

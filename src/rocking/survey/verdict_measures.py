@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
 from rocking.kernels import batch
 from rocking.kernels.classify import attractor_anchor, results
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model.share import Share
 from rocking.model.system import State, System, system_of
 from rocking.model.verdict import Criterion, Kind
 from rocking.motion.simulate import simulate
@@ -224,18 +223,3 @@ def kinds_at(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Ar
     """Return the kind of response at points; None if another thread sets `stop`."""
     arrays = verdicts(points, options, stop)
     return None if arrays is None else {"kind": arrays.kind}
-
-
-def interval_variables(
-    name: str, shares: Sequence[Share], dimension: str, meaning: str
-) -> dict[str, tuple[str, np.ndarray, dict[str, str]]]:
-    """Return fractions along a dimension as three dataset variables: the fraction and both ends of its interval."""
-    parts = {
-        name: ([each.value for each in shares], meaning),
-        f"{name}_low": ([each.low for each in shares], f"{meaning}, lower end of its 95 % interval"),
-        f"{name}_high": ([each.high for each in shares], f"{meaning}, upper end of its 95 % interval"),
-    }
-    return {
-        part: (dimension, np.array(values), {"long_name": long_name, "units": "1"})
-        for part, (values, long_name) in parts.items()
-    }
