@@ -90,14 +90,14 @@ SYSTEM = system_with(amplitude=0.5, restitution=0.9)
 @pytest.mark.parametrize(
     "what, survey",
     [
-        ("responses", lambda shown: rk.chaos_share(SYSTEM, samples=5, progress=shown)),
+        ("5 points in 1 tile, ", lambda shown: rk.chaos_share(SYSTEM, samples=5, progress=shown)),
         ("runs", lambda shown: rk.repeatability(SYSTEM, samples=5, progress=shown)),
         (
-            "6 points in 1 tiles, ",
+            "6 points in 1 tile, ",
             lambda shown: rk.overturning_set(RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown),
         ),
         (
-            "36 points in 1 tiles, ",
+            "36 points in 1 tile, ",
             lambda shown: rk.sensitivity(RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown),
         ),
         ("response diagram", lambda shown: rk.response_diagram(SYSTEM, amplitude=[0.4, 0.5], progress=shown)),

@@ -373,6 +373,10 @@ RESUMED = {
         {"system": system_with(restitution=0.9, amplitude=4.0), "boundary_runs": 0} | STARTS,
     ),
     "safe basin": (rk.safe_basin, {"system": system_with(restitution=0.9), "amplitude": [4.0, 5.0]} | STARTS),
+    "chaos": (
+        rk.chaos_share,
+        {"system": system_with(restitution=0.9), "restitution": [0.5, 0.9], "samples": 100, "max_cycles": 40},
+    ),
     "overturning": (
         rk.overturning_amplitude,
         {"system": ASKED["system"], "period": [1.0, 2.0], "amplitude": ASKED["amplitude"][1:], "phases": 2},
@@ -428,6 +432,7 @@ def test_every_survey_that_is_interrupted_is_resumed_and_repaired_to_the_result_
     [
         ("safe basin", {"samples": 150, "amplitude": [4.0, 5.0, 6.0]}),
         ("basins", {"samples": 150}),
+        ("chaos", {"restitution": [0.5, 0.9, 0.95]}),
         ("overturning set", {"levels": np.append(OF_RECORDS["levels"], [4.1, 4.2])}),
         ("sensitivity", {"levels": np.append(OF_RECORDS["levels"], [4.1, 4.2])}),
     ],
@@ -458,6 +463,7 @@ OTHER_RECORDS = {
     "fragility": ({"samples": 3}, "samples is 2 there and 3 here ("),
     "safe basin": ({"angle": (-0.5, 1.0)}, "angle_range is [-1.0] there and [-0.5] here ("),
     "basins": ({"seed": 1}, "seed is 0 there and 1 here ("),
+    "chaos": ({"samples": 110}, "samples is 100 there and 110 here ("),
 }
 
 
@@ -469,14 +475,16 @@ def test_store_of_other_records_or_samples_is_refused_with_what_differs(name, tm
         survey(**(arguments | changed), store=tmp_path)
 
 
-def test_store_of_an_overturning_set_is_not_refined(tmp_path):
-    rk.overturning_set(**OF_RECORDS, store=tmp_path)
-    message = (
-        "holds 40 values of level from 1 to 4; the requested 79 from 1 to 4 are others "
-        "(give these values; more values beyond the last are possible)"
-    )
-    with pytest.raises(ValueError, match=re.escape(message)):
-        rk.overturning_set(**(OF_RECORDS | {"levels": np.linspace(1.0, 4.0, 79)}), store=tmp_path)
+@pytest.mark.parametrize(
+    "name, axis, values",
+    [("overturning set", "levels", np.linspace(1.0, 4.0, 79)), ("chaos", "restitution", [0.5, 0.7, 0.9])],
+)
+def test_store_of_results_that_depend_on_their_neighbours_is_not_refined(name, axis, values, tmp_path):
+    survey, arguments = RESUMED[name]
+    survey(**arguments, store=tmp_path)
+    message = " are others (give these values; more values beyond the last are possible)"
+    with pytest.raises(ValueError, match=f"the requested {len(values)} from .*{re.escape(message)}"):
+        survey(**(arguments | {axis: values}), store=tmp_path)
 
 
 STRANGERS = {

@@ -142,7 +142,7 @@ def basin_map(
         fixed = HarmonicSpec({}, by_period(system))
         drawn = random_starts(fixed, ends, samples, random, seed)
         data = run_survey(drawn, measure, store, executor, progress=progress, repair=repair).load()
-        starts = drawn.starts
+        starts = np.column_stack([drawn.drawn["angle"], drawn.drawn["velocity"]])
         data = _random_dataset(data, starts, attributes(fixed, measure) | {"seed": seed})
     labels, first = label_attractors(system, {str(name): data[name].values for name in data.data_vars})
     attractors = make_attractors(system, starts, first, max_cycles, max_period)

@@ -6,7 +6,7 @@ import math
 import os
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import CancelledError, Executor
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -59,10 +59,13 @@ class Steps(NamedTuple):
 class SwitchSpec(MotionSpec):
     """Survey of the switches between neighbouring levels of a grid, which have no meaning on a coarser grid."""
 
-    refines: ClassVar[bool] = False
-
     block: Block = field(kw_only=True)
     grid: np.ndarray = field(kw_only=True)
+
+    @property
+    def refines(self) -> bool:
+        """Flag: a result depends on the level below."""
+        return False
 
     def with_axes(self, axes: dict[str, np.ndarray]) -> SwitchSpec:
         """Return the survey over other axes of the same names; shorter ones are parts of the grid."""

@@ -74,25 +74,34 @@ def _kind_of(array: np.ndarray) -> str:
 
 
 @frozen(eq=False)
-class RandomStartSpec(HarmonicSpec):
-    """Survey of systems on a harmonic base with a further axis `sample`, the number of a random initial state."""
+class RandomSpec(HarmonicSpec):
+    """Survey of systems on a harmonic base with random quantities along a further axis `sample`."""
 
-    numbers: ClassVar[dict[str, str]] = {"sample": "number of the initial state, from 0"}
+    numbers: ClassVar[dict[str, str]] = {"sample": "number of the sample, from 0"}
 
-    starts: np.ndarray = field(kw_only=True)  # (samples, 2): angle and velocity along the axis `sample`
+    drawn: dict[str, np.ndarray] = field(kw_only=True)
+    """Random quantities by name, over the last axes or all."""
 
-    def with_axes(self, axes: dict[str, np.ndarray]) -> RandomStartSpec:
-        """Return the survey over other axes of the same names, with their initial states alone."""
-        return evolve(self, axes=axes, starts=self._starts(axes["sample"]))
+    @property
+    def refines(self) -> bool:
+        """Flag: the samples are the same at all points of the other axes."""
+        return all(table.ndim == 1 for table in self.drawn.values())
+
+    def with_axes(self, axes: dict[str, np.ndarray]) -> RandomSpec:
+        """Return the survey over other axes of the same names, with their samples alone."""
+        drawn = {name: table[np.ix_(*self._places(table, axes))] for name, table in self.drawn.items()}
+        return evolve(self, axes=axes, drawn=drawn)
 
     def inputs(self, values: Values) -> Points:
         """Return the systems and initial states of n points."""
         varied = {name: each for name, each in values.items() if name != "sample"}
-        angle, velocity = self._starts(values["sample"]).T
-        return points(varied | {"angle": angle, "velocity": velocity}, self.fixed)
+        drawn = {name: table[self._places(table, values)] for name, table in self.drawn.items()}
+        return points(varied | drawn, self.fixed)
 
-    def _starts(self, numbers: np.ndarray) -> np.ndarray:
-        return self.starts[np.searchsorted(self.axes["sample"], numbers)]
+    def _places(self, table: np.ndarray, values: Values) -> tuple[np.ndarray, ...]:
+        return tuple(
+            np.searchsorted(self.axes[name], values[name]) for name in list(self.axes)[-table.ndim :]
+        )
 
 
 def random_starts(
@@ -101,17 +110,18 @@ def random_starts(
     samples: int,
     random: np.random.Generator,
     seed: int,
-) -> RandomStartSpec:
+) -> RandomSpec:
     """Return a survey repeated for random initial states in the ranges `ends` of angle and velocity.
 
     The first initial states do not depend on their number, so that a store can be extended.
     """
     low, high = zip(ends["angle"], ends["velocity"], strict=True)
     count = whole("samples", samples, 1, MAX_SAMPLES)
-    return RandomStartSpec(
+    angle, velocity = random.uniform(low, high, (count, 2)).T
+    return RandomSpec(
         spec.axes | {"sample": np.arange(float(count))},
         spec.fixed,
-        starts=random.uniform(low, high, (count, 2)),
+        drawn={"angle": angle, "velocity": velocity},
         stated={"seed": seed, "angle_range": list(ends["angle"]), "velocity_range": list(ends["velocity"])},
     )
 

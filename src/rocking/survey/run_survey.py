@@ -65,7 +65,7 @@ class Cost:
 
     def describe(self, workers: int | None) -> str:
         """Return the cost in one line, for a number of workers; None if their number is unknown."""
-        what = f"{self.points:,} points in {self.tiles:,} tiles"
+        what = f"{counted(self.points, 'point')} in {counted(self.tiles, 'tile')}"
         if self.done:
             what += f", {self.done:,} of them computed before"
         about = "more than" if self.at_least else "about"

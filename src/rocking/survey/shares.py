@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
@@ -9,19 +10,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model.progress import Bar
 from rocking.model.proof import ProvedShare
 from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.share import Share, interval_variables, shares_of
 from rocking.model.survey_results import ChaosShare, ParametricMap, check_survey
 from rocking.model.system import NO_BRACES, State, System, system_of
-from rocking.model.validation import Refusal, instance, whole
+from rocking.model.validation import Refusal, whole
 from rocking.model.verdict import Kind
 from rocking.proof.prove import check_provable
 from rocking.response.classify import KINDS, classify
+from rocking.survey.measurement import Measurement
 from rocking.survey.memory import attributes
-from rocking.survey.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.spec import HarmonicSpec, coordinate, points, quantity_axis, system_quantities
+from rocking.survey.random_points import MAX_SAMPLES, RandomSpec, generator, span
+from rocking.survey.run_survey import run_survey
+from rocking.survey.spec import HarmonicSpec, coordinate, quantity_axis, system_quantities
 from rocking.survey.verdict_measures import outcome
 
 if TYPE_CHECKING:
@@ -41,8 +43,10 @@ def chaos_share(
     seed: int = 0,
     max_cycles: int = 20_000,
     max_period: int = 64,
+    store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
+    repair: bool = False,
 ) -> ChaosShare:
     """Estimate the fraction of chaotic responses from rest over the restitution, for random periods and amplitudes.
 
@@ -62,8 +66,8 @@ def chaos_share(
     max_cycles, max_period : int
         As in `classify`. A response is classified as chaotic after 10⁴ cycles at the earliest (with braces 10⁵).
         Default: 20,000 and 64.
-    executor, progress
-        As in `parametric_map`.
+    store, executor, progress, repair
+        As in `parametric_map`. Larger restitutions extend a store. It cannot be refined.
 
     Returns
     -------
@@ -72,8 +76,8 @@ def chaos_share(
 
     Raises
     ------
-    TypeError, ValueError
-        If an argument has the wrong type or lies outside its range.
+    TypeError, ValueError, ImportError, OSError
+        As in `parametric_map`.
 
     See Also
     --------
@@ -85,8 +89,6 @@ def chaos_share(
     -----
     The intervals are Wilson's at 95 %. Their upper ends assume that all undetermined responses are chaotic.
     Not guaranteed: that a chaotic response is an attractor. A longer run may show a chaotic transient.
-
-    There is no store: a thousand responses take seconds, and the same seed reproduces them.
 
     Examples
     --------
@@ -108,27 +110,25 @@ def chaos_share(
         values = quantity_axis("restitution", restitution, "the system")
     count = whole("samples", samples, 1, MAX_SAMPLES)
     random = generator(seed)
-    counts = []
-    with Bar(count * values.size, "responses", shown=instance("progress", progress, bool)) as bar:
-        for each in values.tolist():
-            drawn = {name: random.uniform(*ends, count) for name, ends in spans.items()}
-            kinds = sampled(points(drawn, {"restitution": each, **fixed}), measure, executor)["kind"]
-            counts.append(np.bincount(kinds, minlength=len(KINDS)))
-            bar.advance(count)
-    return ChaosShare(*_summed_up(values, spans, fixed, measure, np.array(counts), seed), system=system)
+    drawn = [[random.uniform(*ends, count) for ends in spans.values()] for _ in values]
+    spec = RandomSpec(
+        {"restitution": values, "sample": np.arange(float(count))},
+        fixed,
+        drawn=dict(zip(spans, np.stack(drawn, axis=1), strict=True)),
+        stated={"samples": count, "seed": seed}
+        | {f"{name}_range": list(ends) for name, ends in spans.items()},
+    )
+    data = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
+    return ChaosShare(*_summed_up(data.kind.values, spec, measure), system=system)
 
 
 def _summed_up(
-    restitutions: np.ndarray,
-    spans: dict[str, tuple[float, float]],
-    fixed: Any,
-    measure: Any,
-    counts: np.ndarray,
-    seed: int,
+    kinds: np.ndarray, spec: RandomSpec, measure: Measurement
 ) -> tuple[Dataset, tuple[Share, ...]]:
     import xarray as xr
 
-    of = int(counts[0].sum())
+    of = kinds.shape[1]
+    counts = np.stack([np.count_nonzero(kinds == number, axis=1) for number in range(len(KINDS))], axis=1)
     chaotic = shares_of(counts[:, kernel.CHAOTIC], of, counts[:, kernel.UNDETERMINED])
     variables: dict[str, Any] = interval_variables(
         "restitution", chaotic, "chaotic", "fraction of chaotic responses"
@@ -139,14 +139,10 @@ def _summed_up(
         {"long_name": "fraction of the responses of each kind", "units": "1"},
     )
     coordinates = {
-        "restitution": ("restitution", restitutions, coordinate("restitution")),
+        "restitution": ("restitution", spec.axes["restitution"], coordinate("restitution")),
         "response": ("response", [str(kind) for kind in KINDS], {"long_name": "kind of response"}),
     }
-    metadata = attributes(HarmonicSpec({}, dict(fixed)), measure) | {
-        "samples": of,
-        "seed": seed,
-        **{f"{name}_range": list(ends) for name, ends in spans.items()},
-    }
+    metadata = attributes(HarmonicSpec({}, spec.fixed), measure) | spec.stated
     return xr.Dataset(variables, coordinates, metadata), chaotic
 
 

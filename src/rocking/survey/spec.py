@@ -58,9 +58,6 @@ class SurveySpec:
     contiguous: ClassVar[bool] = False
     """Flag: the points of a batch are neighbours, because neighbours share some of the work."""
 
-    refines: ClassVar[bool] = True
-    """Flag: a result does not depend on the spacing, so that a store has coarser levels and can be refined."""
-
     numbers: ClassVar[dict[str, str]] = {}
     """Descriptions of the axes that are numbers of something, by name."""
 
@@ -78,6 +75,11 @@ class SurveySpec:
     def points(self) -> int:
         """Total number of points."""
         return math.prod(self.shape)
+
+    @property
+    def refines(self) -> bool:
+        """Flag: a result does not depend on the spacing, so that a store has coarser levels and can be refined."""
+        return True
 
     def with_axes(self: Spec, axes: dict[str, np.ndarray]) -> Spec:
         """Return the survey over other axes of the same names, such as those of a tile."""
