@@ -91,7 +91,7 @@ SYSTEM = system_with(amplitude=0.5, restitution=0.9)
     "what, survey",
     [
         ("5 points in 1 tile, ", lambda shown: rk.chaos_share(SYSTEM, samples=5, progress=shown)),
-        ("runs", lambda shown: rk.repeatability(SYSTEM, samples=5, progress=shown)),
+        ("5 points in 1 tile, ", lambda shown: rk.repeatability(SYSTEM, samples=5, progress=shown)),
         (
             "6 points in 1 tile, ",
             lambda shown: rk.overturning_set(RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown),

@@ -373,6 +373,7 @@ RESUMED = {
         {"system": system_with(restitution=0.9, amplitude=4.0), "boundary_runs": 0} | STARTS,
     ),
     "safe basin": (rk.safe_basin, {"system": system_with(restitution=0.9), "amplitude": [4.0, 5.0]} | STARTS),
+    "experiment": (rk.repeatability, {"system": ASKED["system"], "samples": 100, "max_cycles": 40}),
     "chaos": (
         rk.chaos_share,
         {"system": system_with(restitution=0.9), "restitution": [0.5, 0.9], "samples": 100, "max_cycles": 40},
@@ -402,7 +403,7 @@ def test_every_survey_that_is_interrupted_is_resumed_and_repaired_to_the_result_
 ):
     survey, arguments = RESUMED[name]
     folder, write, left = tmp_path / "survey.zarr", zarr_store.Store.write, [1]
-    plain, whole = survey(**arguments).dataset.load(), computed()
+    plain, whole = survey(**arguments).to_xarray().load(), computed()
 
     def interrupted(kept, tile, answers):
         left[0] -= 1
@@ -416,14 +417,14 @@ def test_every_survey_that_is_interrupted_is_resumed_and_repaired_to_the_result_
             survey(**arguments, store=folder)
     assert "run it again to resume" in caught.value.__notes__[0]
     before = computed()
-    assert survey(**arguments, store=folder).dataset.load().identical(plain)
+    assert survey(**arguments, store=folder).to_xarray().load().identical(plain)
     assert 0 < computed() - before < whole
     damaged = next(path for path in folder.glob("level-*/*/digests/**/*") if path.is_file())
     Path(str(damaged).replace("digests", "c")).write_bytes(b"")
     with pytest.raises(OSError, match="recompute these tiles with repair"):
         survey(**arguments, store=folder)
     before = computed()
-    assert survey(**arguments, store=folder, repair=True).dataset.load().identical(plain)
+    assert survey(**arguments, store=folder, repair=True).to_xarray().load().identical(plain)
     assert 0 < computed() - before < whole
 
 
@@ -432,6 +433,7 @@ def test_every_survey_that_is_interrupted_is_resumed_and_repaired_to_the_result_
     [
         ("safe basin", {"samples": 150, "amplitude": [4.0, 5.0, 6.0]}),
         ("basins", {"samples": 150}),
+        ("experiment", {"samples": 150}),
         ("chaos", {"restitution": [0.5, 0.9, 0.95]}),
         ("overturning set", {"levels": np.append(OF_RECORDS["levels"], [4.1, 4.2])}),
         ("sensitivity", {"levels": np.append(OF_RECORDS["levels"], [4.1, 4.2])}),
@@ -441,9 +443,9 @@ def test_more_samples_and_more_levels_extend_a_store(name, changed, tmp_path, co
     survey, arguments = RESUMED[name]
     survey(**arguments, store=tmp_path)
     before = computed()
-    longer = survey(**(arguments | changed), store=tmp_path).dataset.load()
+    longer = survey(**(arguments | changed), store=tmp_path).to_xarray().load()
     added = computed() - before
-    assert longer.identical(survey(**(arguments | changed)).dataset.load())
+    assert longer.identical(survey(**(arguments | changed)).to_xarray().load())
     assert 0 < added < computed() - before - added
 
 
@@ -464,6 +466,7 @@ OTHER_RECORDS = {
     "safe basin": ({"angle": (-0.5, 1.0)}, "angle_range is [-1.0] there and [-0.5] here ("),
     "basins": ({"seed": 1}, "seed is 0 there and 1 here ("),
     "chaos": ({"samples": 110}, "samples is 100 there and 110 here ("),
+    "experiment": ({"relative": 0.02}, "relative is 0.01 there and 0.02 here ("),
 }
 
 

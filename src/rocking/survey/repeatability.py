@@ -16,7 +16,7 @@ from rocking.model.share import Share
 from rocking.model.survey_results import Repeatability, RepeatabilityMap
 from rocking.model.system import State, System, check_periodic
 from rocking.model.text import counted
-from rocking.model.validation import instance, whole, within
+from rocking.model.validation import whole, within
 from rocking.model.verdict import Kind
 from rocking.response.classify import KINDS, budget
 from rocking.survey.measurement import Arrays, Measurement, Variable
@@ -25,13 +25,22 @@ from rocking.survey.random_points import (
     MAX_RELATIVE,
     MAX_SAMPLES,
     TITLE,
+    RandomSpec,
     generator,
     perturbed,
-    sampled,
     spread,
 )
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import Points, fixed_start, harmonic_spec, points_of, system_quantities
+from rocking.survey.spec import (
+    START,
+    SYSTEM,
+    Points,
+    by_period,
+    fixed_start,
+    harmonic_spec,
+    points_of,
+    system_quantities,
+)
 from rocking.survey.verdict_measures import KIND, response, verdicts
 
 Name = TypeVar("Name", bound=str)
@@ -46,8 +55,10 @@ def repeatability(
     seed: int = 0,
     max_cycles: int = 10_000,
     max_period: int = 64,
+    store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
+    repair: bool = False,
 ) -> Repeatability:
     """Estimate the fraction of each outcome of an experiment whose inputs vary slightly.
 
@@ -69,8 +80,8 @@ def repeatability(
         Random seed in [0, 2³² − 1]. Default: 0.
     max_cycles, max_period : int
         As in `classify`. Default: 10,000 and 64.
-    executor, progress
-        As in `parametric_map`.
+    store, executor, progress, repair
+        As in `parametric_map`. More samples of the same seed extend a store.
 
     Returns
     -------
@@ -79,8 +90,8 @@ def repeatability(
 
     Raises
     ------
-    TypeError, ValueError
-        If an argument has the wrong type or lies outside its range.
+    TypeError, ValueError, ImportError, OSError
+        As in `parametric_map`.
 
     See Also
     --------
@@ -91,8 +102,6 @@ def repeatability(
     -----
     The intervals are Wilson's at 95 %. A run that is undetermined after `max_cycles` may have any outcome, so that it
     raises the upper ends of all intervals. An asymmetric response and its mirror image count as one.
-
-    There is no store: a thousand runs take seconds, and the same seed reproduces them.
 
     Examples
     --------
@@ -105,15 +114,20 @@ def repeatability(
     off = within("relative", relative, 0, MAX_RELATIVE)
     count = whole("samples", samples, 1, MAX_SAMPLES)
     measure = response(max_cycles, max_period, TITLE)
-    random = generator(seed)
     meant = points_of(system, np.tile([start.angle, start.velocity], (count, 1)))
-    shown_as = "runs" if instance("progress", progress, bool) else ""
-    tried = perturbed(meant, random.uniform(-1.0, 1.0, (count, INPUTS)), off)
-    answers = sampled(tried, measure, executor, shown_as)
-    kinds = Counter(KINDS[k] for k in answers["kind"].tolist())
+    tried = perturbed(meant, generator(seed).uniform(-1.0, 1.0, (count, INPUTS)), off)
+    drawn = dict(zip((*SYSTEM, *START), np.hstack(tried).T, strict=True))
+    spec = RandomSpec(
+        {"sample": np.arange(float(count))},
+        by_period(system) | fixed_start(start),
+        drawn={name: drawn[name] for name in ("amplitude", "period", "restitution", *START)},
+        stated={"relative": off, "seed": seed},
+    )
+    data = run_survey(spec, measure, store, executor, progress=progress, repair=repair).load()
+    kinds = Counter(KINDS[k] for k in data.kind.values.tolist())
     unknown = kinds[Kind.UNDETERMINED]
     columns = (
-        answers[name].tolist() for name in ("kind", "response_period", "symmetric", "impacts_per_period")
+        data[name].values.tolist() for name in ("kind", "response_period", "symmetric", "impacts_per_period")
     )
     return Repeatability(
         system,
