@@ -9,7 +9,7 @@ import pytest
 import rocking as rk
 from rocking.survey.random_points import perturbed as inputs_off
 from rocking.survey.random_points import spread
-from rocking.survey.spec import SYSTEM, points_of
+from rocking.survey.spec import SYSTEM, by_period, points
 from surveyed import system_with
 
 EDGE = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), 0.95)
@@ -93,7 +93,7 @@ def test_inputs_that_are_not_off_have_one_outcome():
 def test_restitution_is_drawn_evenly_up_to_one_and_never_above():
     system = rk.System(rk.Harmonic(amplitude=4.0, period=0.4), 1.0)
     units = np.random.default_rng(8).uniform(-1, 1, (4000, 5))
-    tried = inputs_off(points_of(system, np.zeros((4000, 2))), units, 0.2).systems[
+    tried = inputs_off(points({"angle": np.zeros(4000)}, by_period(system)), units, 0.2).systems[
         :, SYSTEM.index("restitution")
     ]
     assert 0.8 <= tried.min() < 0.801

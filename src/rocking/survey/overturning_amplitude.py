@@ -21,7 +21,6 @@ from rocking.survey.spec import (
     HarmonicSpec,
     coordinate,
     harmonic_spec,
-    points,
     quantity_axis,
     system_quantities,
 )
@@ -90,8 +89,8 @@ def refined(scan: Scan, executor: Executor | None) -> tuple[np.ndarray, np.ndarr
         if wide.size == 0:
             break
         middle = 0.5 * (low[wide] + high[wide])
-        tried = points({name: v[wide] for name, v in values.items()} | {"amplitude": middle}, scan.spec.fixed)
-        fell = sampled(tried, scan.measure, executor)["kind"] == kernel.OVERTURNS
+        tried = {name: v[wide] for name, v in values.items()} | {"amplitude": middle}
+        fell = sampled(tried, scan.spec.fixed, scan.measure, executor)["kind"] == kernel.OVERTURNS
         high[wide[fell]], low[wide[~fell]] = middle[fell], middle[~fell]
     lowest, phase = np.full(first.size, np.nan), np.full(first.size, np.nan)
     # in descending order, so that the lowest amplitude is written last

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from concurrent.futures import CancelledError, Executor
+from collections.abc import Mapping
+from concurrent.futures import Executor
 from hashlib import sha256
 from typing import Any, ClassVar
 
@@ -15,38 +16,14 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.progress import Bar
 from rocking.model.quantity import AMPLITUDE, PERIOD, SYSTEM_QUANTITIES
 from rocking.model.record_set import RecordSet
-from rocking.model.validation import Refusal, Text, WrongType, instance, reals, whole
+from rocking.model.validation import Refusal, Text, WrongType, reals, whole
 from rocking.survey.measurement import Arrays, Measurement
-from rocking.survey.run_survey import count_when_done, engine
+from rocking.survey.memory import Memory
+from rocking.survey.run_survey import Watcher, run
 from rocking.survey.spec import SYSTEM, HarmonicSpec, MotionSpec, Points, Runs, Values, points
 
-AT_ONCE = 2048
-"""Points per batch."""
 MAX_SAMPLES = 10_000_000
 MAX_SEED = 2**32 - 1
-
-
-def sampled(
-    points: Points, measure: Measurement, executor: Executor | None = None, title: str = ""
-) -> Arrays:
-    """Return the results of a measurement at points, in their order; with a progress bar if they are ``title`` something."""
-    if executor is not None:
-        instance("executor", executor, Executor)
-    total = len(points.systems)
-    with engine(executor) as (pool, stop), Bar(total, title, shown=bool(title)) as bar:
-        futures = []
-        try:
-            for first in range(0, total, AT_ONCE):
-                part = Points(*(array[first : first + AT_ONCE] for array in points))
-                futures.append(pool.submit(measure.function, part, measure.options, stop))
-                count_when_done(bar, futures[-1], len(part.systems))
-            answers = [result for future in futures if (result := future.result()) is not None]
-        finally:
-            for future in futures:
-                future.cancel()
-    if len(answers) < len(futures):
-        raise CancelledError("the survey was stopped")
-    return {name: np.concatenate([each[name] for each in answers]) for name in answers[0]}
 
 
 def generator(seed: int) -> np.random.Generator:
@@ -102,6 +79,22 @@ class RandomSpec(HarmonicSpec):
         return tuple(
             np.searchsorted(self.axes[name], values[name]) for name in list(self.axes)[-table.ndim :]
         )
+
+
+def sampled(
+    drawn: Values,
+    fixed: Mapping[str, float],
+    measure: Measurement,
+    executor: Executor | None = None,
+    title: str = "",
+) -> Arrays:
+    """Return the results of a measurement for quantities (n,), in their order; with a progress bar if there is a title."""
+    count = next(iter(drawn.values())).size
+    spec = RandomSpec({"sample": np.arange(float(count))}, dict(fixed), drawn=dict(drawn))
+    results = Memory(spec, measure)
+    with Bar(count, title, shown=bool(title)) as bar:
+        run(results, executor, Watcher(bar, measure))
+    return results.arrays
 
 
 def random_starts(

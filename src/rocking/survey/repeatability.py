@@ -38,7 +38,7 @@ from rocking.survey.spec import (
     by_period,
     fixed_start,
     harmonic_spec,
-    points_of,
+    points,
     system_quantities,
 )
 from rocking.survey.verdict_measures import KIND, response, verdicts
@@ -114,12 +114,13 @@ def repeatability(
     off = within("relative", relative, 0, MAX_RELATIVE)
     count = whole("samples", samples, 1, MAX_SAMPLES)
     measure = response(max_cycles, max_period, TITLE)
-    meant = points_of(system, np.tile([start.angle, start.velocity], (count, 1)))
+    fixed = by_period(system) | fixed_start(start)
+    meant = points({"angle": np.full(count, start.angle)}, fixed)
     tried = perturbed(meant, generator(seed).uniform(-1.0, 1.0, (count, INPUTS)), off)
     drawn = dict(zip((*SYSTEM, *START), np.hstack(tried).T, strict=True))
     spec = RandomSpec(
         {"sample": np.arange(float(count))},
-        by_period(system) | fixed_start(start),
+        fixed,
         drawn={name: drawn[name] for name in ("amplitude", "period", "restitution", *START)},
         stated={"relative": off, "seed": seed},
     )

@@ -259,7 +259,8 @@ def run_survey(
     if executor is not None:
         instance("executor", executor, Executor)
     instance("progress", progress, bool)
-    check_repair(store, repair=repair)
+    if instance("repair", repair, bool) and store is None:
+        raise Refusal("repair", "be used with {store}, whose damaged tiles it recomputes")
     if store is None:
         check_fits(spec, measure)
         results = Memory(spec, measure)
@@ -279,12 +280,6 @@ def run_survey(
         )
     with _noted(f"The survey is complete in {formatted_path(store)}; run it again to read the results."):
         return kept.dataset()
-
-
-def check_repair(store: object, *, repair: bool) -> None:
-    """Raise TypeError or ValueError if `repair` is no bool, or if there is no store to repair."""
-    if instance("repair", repair, bool) and store is None:
-        raise Refusal("repair", "be used with {store}, whose damaged tiles it recomputes")
 
 
 def _carry_out(results: Memory | Store, executor: Executor | None, progress: bool, interrupted: str) -> None:

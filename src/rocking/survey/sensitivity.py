@@ -13,11 +13,11 @@ from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import Sensitivity
 from rocking.model.record_set import RecordSet, record_set
-from rocking.model.validation import Refusal, instance, refuse_if, whole
+from rocking.model.validation import Refusal, instance, refuse_if
 from rocking.survey.ending_measures import OVERTURNED, UNDECIDED, ending
 from rocking.survey.fragility_curve import clustered_fractions, two_level_weights
 from rocking.survey.incremental_dynamic_analysis import block_spec, of_block
-from rocking.survey.random_points import MAX_SEED, fingerprints
+from rocking.survey.random_points import fingerprints, generator
 from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import MotionSpec, Runs, Values
 
@@ -105,7 +105,7 @@ def sensitivity(
     """
     chosen = record_set(records)
     order = np.argsort(fingerprints(chosen))
-    random = np.random.default_rng(whole("seed", seed, 0, MAX_SEED))
+    random = generator(seed)
     instance("block", block, Block)
     refuse_if(
         not RESTITUTION <= block.restitution <= 1.0 - RESTITUTION,

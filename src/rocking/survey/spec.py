@@ -566,8 +566,3 @@ def by_period(system: System) -> dict[str, float]:
     check_periodic(system, None)
     check_constant_restitution(system)
     return {name: value for name, value in quantities(system).items() if name != "frequency"}
-
-
-def points_of(system: System, starts: np.ndarray) -> Points:
-    """Return the points of one system with initial states (n, 2)."""
-    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, by_period(system))

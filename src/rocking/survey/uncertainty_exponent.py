@@ -16,7 +16,7 @@ from rocking.model.system import System
 from rocking.survey.attractors import label_attractors
 from rocking.survey.measurement import Measurement
 from rocking.survey.random_points import MAX_SAMPLES, sampled
-from rocking.survey.spec import points_of
+from rocking.survey.spec import by_period
 
 FINEST, COARSEST = 13, 6
 """Range of k of the distances, which are 2⁻ᵏ times the mean width of the range of initial states."""
@@ -142,7 +142,8 @@ class Boundaries:
         if self.system.braces is not None:
             starts[:, 0] = np.clip(starts[:, 0], -self.system.braces.angle, self.system.braces.angle)
         title = "boundary runs" if self.progress else ""
-        return sampled(points_of(self.system, starts), self.measure, self.executor, title), tried
+        drawn = {"angle": starts[:, 0], "velocity": starts[:, 1]}
+        return sampled(drawn, by_period(self.system), self.measure, self.executor, title), tried
 
     def _fitted(self, rows: dict[str, np.ndarray], starts: np.ndarray) -> Exponents:
         labels, _ = label_attractors(self.system, rows)
