@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 import rocking as rk
+from surveyed import system_with
 
 
 class StoredSurvey(NamedTuple):
@@ -59,6 +60,48 @@ SURVEYS = {
         "margin",
     ),
 }
+
+
+RECORDS = rk.synthetic_ground_motions(2, seed=3, duration=4.0)
+OF_RECORDS = {"records": RECORDS, "block": rk.Block(2.0, 0.5), "levels": np.linspace(1.0, 4.0, 40)}
+TWO_AXES = {"amplitude": np.linspace(0.0, 16.0, 44), "period": np.linspace(0.2, 3.0, 44)}
+SYSTEM = system_with(restitution=0.9)
+STARTS = {"angle": (-1.0, 1.0), "velocity": (-1.0, 1.0), "samples": 100, "max_cycles": 40}
+PULSE = rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9)
+EVERY = {
+    "map": (rk.parametric_map, {"system": SYSTEM, "max_cycles": 40} | TWO_AXES),
+    "repeatability": (
+        rk.repeatability_map,
+        {"system": SYSTEM, "samples": 2, "max_cycles": 20} | TWO_AXES,
+    ),
+    "basins": (
+        rk.basin_map,
+        {"system": system_with(restitution=0.9, amplitude=4.0), "boundary_runs": 0} | STARTS,
+    ),
+    "safe basin": (rk.safe_basin, {"system": SYSTEM, "amplitude": [4.0, 5.0]} | STARTS),
+    "experiment": (rk.repeatability, {"system": SYSTEM, "samples": 100, "max_cycles": 40}),
+    "chaos": (
+        rk.chaos_share,
+        {"system": SYSTEM, "restitution": [0.5, 0.9], "samples": 100, "max_cycles": 40},
+    ),
+    "overturning": (
+        rk.overturning_amplitude,
+        {"system": SYSTEM, "period": [1.0, 2.0], "amplitude": np.linspace(0.1, 16.0, 129), "phases": 2},
+    ),
+    "pulses": (
+        rk.overturning_spectrum,
+        {"system": PULSE, "amplitude": np.linspace(0.1, 16.0, 129), "frequency": [1.0, 2.0]},
+    ),
+    "spectrum": (
+        rk.rocking_spectrum,
+        {"records": RECORDS, "size": np.linspace(1.0, 2.0, 40), "slenderness": 0.2, "levels": 2.0},
+    ),
+    "dynamic analysis": (rk.incremental_dynamic_analysis, OF_RECORDS),
+    "fragility": (rk.fragility, OF_RECORDS | {"samples": 2, "width_spread": 0.1, "replicates": 100}),
+    "sensitivity": (rk.sensitivity, OF_RECORDS),
+    "overturning set": (rk.overturning_set, OF_RECORDS),
+}
+"""Every survey with a store: its function and arguments, a survey of more than one tile."""
 
 
 def files(folder):

@@ -11,7 +11,7 @@ from concurrent.futures.process import BrokenProcessPool
 import pytest
 from distributed import Client, LocalCluster
 
-from stored_surveys import SURVEYS, files
+from stored_surveys import EVERY, SURVEYS, files
 
 
 @pytest.fixture(scope="module", params=SURVEYS)
@@ -68,6 +68,19 @@ def test_processes_give_the_same_bytes(survey, tmp_path, whole):
     with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as executor:
         survey.run(tmp_path / "survey.zarr", executor=executor)
     assert files(tmp_path / "survey.zarr") == whole
+
+
+@pytest.fixture(scope="module")
+def processes():
+    with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as executor:
+        yield executor
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_processes_give_the_result_of_threads(name, processes):
+    survey, arguments = EVERY[name]
+    result = survey(**arguments, executor=processes).to_xarray()
+    assert result.identical(survey(**arguments).to_xarray())
 
 
 @pytest.mark.long

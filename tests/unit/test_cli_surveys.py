@@ -145,6 +145,28 @@ def test_a_path_is_told_as_it_was_typed(rocking):
     assert f"is damaged at '{chunk}' (recompute these tiles with --repair)" in told
 
 
+OF_THE_RECORD = "example --height 2 --width 0.5 --pga-g 0.5:1.5:30"
+STORED = {
+    "basins": "--amplitude 5.5 --period 1 --restitution 0.8 --samples 50 --boundary-runs 0 --max-cycles 40",
+    "safe-basin": "--amplitude 2:9:5 --period 1 --restitution 0.8 --samples 50 --max-cycles 40",
+    "fragility": OF_THE_RECORD,
+    "sensitivity": OF_THE_RECORD,
+    "overturning-set": OF_THE_RECORD,
+}
+
+
+@pytest.mark.parametrize("command", STORED)
+def test_a_command_with_a_store_reads_and_repairs_its_results(rocking, command):
+    line = f"{command} {STORED[command]}"
+    plain = rocking(line)[2]
+    stored = f"{plain}wrote kept.zarr\n"
+    assert rocking(f"{line} --store kept.zarr") == (0, "", stored)
+    digests = next(path for path in Path("kept.zarr").glob("level-0/*/digests/**/*") if path.is_file())
+    Path(str(digests).replace("digests", "c")).write_bytes(b"")
+    assert "(recompute these tiles with --repair)" in rocking(f"{line} --store kept.zarr")[1]
+    assert rocking(f"{line} --store kept.zarr --repair")[2] == stored
+
+
 def test_a_study_that_begins_with_a_mark_of_its_byte_order_is_read(rocking):
     line = "map --amplitude 1:2:3 --period 1:2:3 --max-cycles 20"
     Path("study.toml").write_text("restitution = 0.9\n", encoding="utf-8-sig")

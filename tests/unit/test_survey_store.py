@@ -26,6 +26,7 @@ from rocking.survey.store_access import ROOT
 from rocking.survey.store_access import lock as lock_of_store
 from rocking.survey.store_layout import check_same
 from rocking.survey.zarr_files import Files
+from stored_surveys import EVERY, OF_RECORDS, RECORDS
 from surveyed import system_with
 
 SIZE = 130
@@ -357,51 +358,11 @@ def test_who_interrupts_the_reading_of_a_store_is_told_that_it_is_complete(tmp_p
     assert caught.value.__notes__ == [told]
 
 
-RECORDS = rk.synthetic_ground_motions(2, seed=3, duration=4.0)
-OF_RECORDS = {"records": RECORDS, "block": rk.Block(2.0, 0.5), "levels": np.linspace(1.0, 4.0, 40)}
-TWO_AXES = {name: ASKED[name][::3] for name in ("amplitude", "period")}
-STARTS = {"angle": (-1.0, 1.0), "velocity": (-1.0, 1.0), "samples": 100, "max_cycles": 40}
-PULSE = rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9)
-RESUMED = {
-    "map": (rk.parametric_map, ASKED | TWO_AXES),
-    "repeatability": (
-        rk.repeatability_map,
-        {"system": ASKED["system"], "samples": 2, "max_cycles": 20} | TWO_AXES,
-    ),
-    "basins": (
-        rk.basin_map,
-        {"system": system_with(restitution=0.9, amplitude=4.0), "boundary_runs": 0} | STARTS,
-    ),
-    "safe basin": (rk.safe_basin, {"system": system_with(restitution=0.9), "amplitude": [4.0, 5.0]} | STARTS),
-    "experiment": (rk.repeatability, {"system": ASKED["system"], "samples": 100, "max_cycles": 40}),
-    "chaos": (
-        rk.chaos_share,
-        {"system": system_with(restitution=0.9), "restitution": [0.5, 0.9], "samples": 100, "max_cycles": 40},
-    ),
-    "overturning": (
-        rk.overturning_amplitude,
-        {"system": ASKED["system"], "period": [1.0, 2.0], "amplitude": ASKED["amplitude"][1:], "phases": 2},
-    ),
-    "pulses": (
-        rk.overturning_spectrum,
-        {"system": PULSE, "amplitude": ASKED["amplitude"][1:], "frequency": [1.0, 2.0]},
-    ),
-    "spectrum": (
-        rk.rocking_spectrum,
-        {"records": RECORDS, "size": np.linspace(1.0, 2.0, 40), "slenderness": 0.2, "levels": 2.0},
-    ),
-    "dynamic analysis": (rk.incremental_dynamic_analysis, OF_RECORDS),
-    "fragility": (rk.fragility, OF_RECORDS | {"samples": 2, "width_spread": 0.1, "replicates": 100}),
-    "sensitivity": (rk.sensitivity, OF_RECORDS),
-    "overturning set": (rk.overturning_set, OF_RECORDS),
-}
-
-
-@pytest.mark.parametrize("name", RESUMED)
+@pytest.mark.parametrize("name", EVERY)
 def test_every_survey_that_is_interrupted_is_resumed_and_repaired_to_the_result_in_memory(
     name, tmp_path, monkeypatch, computed
 ):
-    survey, arguments = RESUMED[name]
+    survey, arguments = EVERY[name]
     folder, write, left = tmp_path / "survey.zarr", zarr_store.Store.write, [1]
     plain, whole = survey(**arguments).to_xarray().load(), computed()
 
@@ -440,7 +401,7 @@ def test_every_survey_that_is_interrupted_is_resumed_and_repaired_to_the_result_
     ],
 )
 def test_more_samples_and_more_levels_extend_a_store(name, changed, tmp_path, computed):
-    survey, arguments = RESUMED[name]
+    survey, arguments = EVERY[name]
     survey(**arguments, store=tmp_path)
     before = computed()
     longer = survey(**(arguments | changed), store=tmp_path).to_xarray().load()
@@ -450,7 +411,7 @@ def test_more_samples_and_more_levels_extend_a_store(name, changed, tmp_path, co
 
 
 def test_store_of_one_random_initial_state_is_read_again(tmp_path, computed):
-    survey, arguments = RESUMED["safe basin"]
+    survey, arguments = EVERY["safe basin"]
     for _ in range(2):
         survey(**(arguments | {"samples": 1}), store=tmp_path)
     assert computed() == 2
@@ -472,7 +433,7 @@ OTHER_RECORDS = {
 
 @pytest.mark.parametrize("name", OTHER_RECORDS)
 def test_store_of_other_records_or_samples_is_refused_with_what_differs(name, tmp_path):
-    (survey, arguments), (changed, differs) = RESUMED[name], OTHER_RECORDS[name]
+    (survey, arguments), (changed, differs) = EVERY[name], OTHER_RECORDS[name]
     survey(**arguments, store=tmp_path)
     with pytest.raises(ValueError, match=f"holds a different survey: .*{re.escape(differs)}"):
         survey(**(arguments | changed), store=tmp_path)
@@ -483,7 +444,7 @@ def test_store_of_other_records_or_samples_is_refused_with_what_differs(name, tm
     [("overturning set", "levels", np.linspace(1.0, 4.0, 79)), ("chaos", "restitution", [0.5, 0.7, 0.9])],
 )
 def test_store_of_results_that_depend_on_their_neighbours_is_not_refined(name, axis, values, tmp_path):
-    survey, arguments = RESUMED[name]
+    survey, arguments = EVERY[name]
     survey(**arguments, store=tmp_path)
     message = " are others (give these values; more values beyond the last are possible)"
     with pytest.raises(ValueError, match=f"the requested {len(values)} from .*{re.escape(message)}"):
