@@ -39,9 +39,6 @@ def with_equation(result: Any, rows: Iterable[Row], title: str, sentences: Itera
 # Rocking spectrum.
 
 
-VARYING = ("size", "slenderness", "restitution", "level")
-
-
 MOST_NAMES = 3
 
 

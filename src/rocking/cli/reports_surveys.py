@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
     from rocking.cli.requests import Request
 
-COUNTS = ("max_cycles", "max_period")
 DRAWN = ("curves", "symbols")
 """Options of the figure of a map."""
 

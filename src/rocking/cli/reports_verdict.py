@@ -28,7 +28,7 @@ from rocking.model.result import Result, along, described
 from rocking.model.system import System, quantities
 from rocking.model.text import counted, plus_minus
 from rocking.model.verdict import Verdict
-from rocking.orbits.datasets import multipliers
+from rocking.orbits.result_columns import multipliers
 from rocking.response.lyapunov import dimension_of
 
 if TYPE_CHECKING:

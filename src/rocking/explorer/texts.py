@@ -51,9 +51,9 @@ def verdict(result: Verdict, block: Block | None) -> dict[str, Any]:
 
 
 SENTENCES = {
-    Kind.REST: "The block comes to rest and stands.",
-    Kind.QUASI_PERIODIC: "The block rocks for ever. Its motion never repeats itself, but is regular.",
-    Kind.CHAOTIC: "The block rocks for ever, irregularly. Two almost equal starts soon lead to different motions.",
+    Kind.REST: "The block stands at rest.",
+    Kind.QUASI_PERIODIC: "The block keeps rocking, regularly, and has not repeated its motion.",
+    Kind.CHAOTIC: "The block keeps rocking, irregularly. Two almost equal starts soon lead to different motions.",
     Kind.OVERTURNED: "The block falls over.",
     Kind.UNDETERMINED: "The simulated motion does not show how the block ends.",
 }
@@ -65,7 +65,7 @@ def sentence(result: Verdict) -> str:
     if result.period is None:
         return SENTENCES[result.kind]
     times = "cycle" if result.period == 1 else f"{result.period} cycles"
-    return f"The block rocks for ever and repeats its motion every {times} of the base."
+    return f"The block keeps moving and repeats its motion every {times} of the base."
 
 
 def impacts(number: int | None) -> str:

@@ -18,10 +18,10 @@ from rocking.orbits.branch import ENDS, SpecialPoint, chain_at
 from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of
 from rocking.orbits.curve_ends import until_parent
 from rocking.orbits.curve_zeros import CurveRows
-from rocking.orbits.datasets import of_curve
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.grazing import touches_again
 from rocking.orbits.parameter import check_range, check_step, value_of
+from rocking.orbits.result_columns import of_curve
 
 if TYPE_CHECKING:
     import xarray as xr

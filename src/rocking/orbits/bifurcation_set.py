@@ -17,10 +17,10 @@ from rocking.model.validation import WrongType, instance, one_of, whole
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
-from rocking.orbits.datasets import of_curves
 from rocking.orbits.event_chain import NAMES
 from rocking.orbits.find_orbits import find_orbits
 from rocking.orbits.parameter import check_range, check_step, value_of, with_value
+from rocking.orbits.result_columns import of_curves
 
 if TYPE_CHECKING:
     import xarray as xr

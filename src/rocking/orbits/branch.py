@@ -17,7 +17,6 @@ from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
 from rocking.model.result import Result
 from rocking.model.system import System
 from rocking.model.validation import WrongType, whole, within
-from rocking.orbits.datasets import of_branch
 from rocking.orbits.event_chain import (
     Chain,
     End,
@@ -31,6 +30,7 @@ from rocking.orbits.event_chain import (
 )
 from rocking.orbits.grazing import GrazingContact, grazing_at
 from rocking.orbits.parent_branch import special_points
+from rocking.orbits.result_columns import of_branch
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -16,8 +16,8 @@ from rocking.model.text import counted, plus_minus
 from rocking.model.validation import Refusal, instance, whole
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import switch_branch
-from rocking.orbits.datasets import of_cascade
 from rocking.orbits.parameter import check_range
+from rocking.orbits.result_columns import of_cascade
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -17,9 +17,9 @@ from rocking.model.result import Result
 from rocking.model.system import State, System
 from rocking.model.text import counted
 from rocking.model.validation import instance, pair, refuse_if, whole, within
-from rocking.orbits.datasets import of_orbits
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts, orbit_from
+from rocking.orbits.result_columns import of_orbits
 from rocking.orbits.saddle_manifolds import response
 from rocking.proof.prove import check_provable
 from rocking.proof.prove import prove as proved

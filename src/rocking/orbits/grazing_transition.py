@@ -24,9 +24,9 @@ from rocking.model.verdict import Kind, Verdict
 from rocking.motion.simulate import simulate
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.continuation import MEETS, PERSISTS, switch_branch
-from rocking.orbits.datasets import of_transition
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.parameter import ALLOWED, with_value
+from rocking.orbits.result_columns import of_transition
 from rocking.response.classify import budget, classify
 
 if TYPE_CHECKING:

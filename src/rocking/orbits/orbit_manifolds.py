@@ -19,8 +19,8 @@ from rocking.model.result import Result
 from rocking.model.system import State
 from rocking.model.validation import Refusal, instance, within
 from rocking.motion.march_loop import monodromy
-from rocking.orbits.datasets import of_manifolds
 from rocking.orbits.event_chain import clocked
+from rocking.orbits.result_columns import of_manifolds
 from rocking.orbits.saddle_manifolds import (
     MAX_POINTS,
     SPACINGS,

@@ -23,8 +23,8 @@ from rocking.model.result import Result
 from rocking.model.system import State, System
 from rocking.model.validation import Refusal, TooManyEvents, instance, refuse_if, whole, within
 from rocking.motion.march_loop import start_march
-from rocking.orbits.datasets import of_saddles
 from rocking.orbits.parameter import with_value
+from rocking.orbits.result_columns import of_saddles
 from rocking.theory import saddle_orbit
 
 if TYPE_CHECKING:

@@ -35,8 +35,11 @@ def _in_units_of_the_result(draw: Any) -> Any:
     @wraps(draw)
     def drawn(*args: Any, **kwargs: Any) -> Any:
         with suppress(TypeError):  # the function itself refuses wrong arguments
-            given = parameters.bind(*args, **kwargs).arguments
-            if "block" not in given and (block := _block(next(iter(given.values()), None))) is not None:
+            arguments = parameters.bind(*args, **kwargs).arguments
+            if (
+                "block" not in arguments
+                and (block := _block(next(iter(arguments.values()), None))) is not None
+            ):
                 kwargs["block"] = block
         return draw(*args, **kwargs)
 

@@ -172,7 +172,7 @@ def pairs_of_equal_states(states: np.ndarray, others: np.ndarray) -> np.ndarray:
     from scipy.spatial import cKDTree
 
     near = cKDTree(states).query_ball_point(others, SAME)
-    counts = [len(result) for result in near]
+    counts = [len(places) for places in near]
     rows = np.concatenate([np.empty(0, int), *near]).astype(int)
     return np.column_stack([rows, np.repeat(np.arange(len(others)), counts)])
 

@@ -215,8 +215,8 @@ def _of_record(
     width = block.width * np.exp(spreads[1] * ndtri(places[1]))
     rows = []
     for number, deviation in enumerate((spreads[2] * (2.0 * places[2] - 1.0)).tolist()):
-        values = None if block.has_housner_restitution else block.restitution
-        each = Block(float(height[number]), float(width[number]), values, block.inertia_ratio)
+        restitution = None if block.has_housner_restitution else block.restitution
+        each = Block(float(height[number]), float(width[number]), restitution, block.inertia_ratio)
         rows.append((each.radius, each.critical_angle, min(max(each.restitution + deviation, 0.0), 1.0)))
     return np.array(rows)
 
@@ -239,8 +239,8 @@ def fingerprints(records: RecordSet) -> tuple[str, ...]:
         mark = fingerprint(motion)
         if mark in seen:
             allowed = "hold independent motions"
-            result = f"{name}, the same as {seen[mark]}"
+            twins = f"{name}, the same as {seen[mark]}"
             remedy = "leave one out: a copy, scaled or reversed, says nothing new"
-            raise Refusal("records", allowed, result, remedy)
+            raise Refusal("records", allowed, twins, remedy)
         seen[mark] = name
     return tuple(seen)

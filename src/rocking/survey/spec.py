@@ -497,10 +497,6 @@ def _each(formula: Any, values: np.ndarray, inertia_ratio: float) -> np.ndarray:
     return np.array([formula(value, inertia_ratio) for value in distinct.tolist()])[places]
 
 
-PULSE_QUANTITIES = ("amplitude", "frequency", "restitution", "critical_angle")
-"""Quantities of a survey of pulses, in the order of the dimensions."""
-
-
 class Pulses(NamedTuple):
     """Pulses at n points, each an array (n,)."""
 

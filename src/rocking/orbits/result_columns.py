@@ -1,4 +1,4 @@
-"""Datasets of branches, bifurcation curves, cascades, sets of periodic orbits and their manifolds."""
+"""Columns of the datasets of branches, bifurcation curves, cascades, sets of periodic orbits and their manifolds."""
 
 from __future__ import annotations
 
