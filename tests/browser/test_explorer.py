@@ -66,6 +66,7 @@ def test_numbers_typed_give_the_known_verdict(visit):
         )
         visitor.judged()
         assert visitor.text("kind") == kind
+        assert visitor.text("sentence").startswith("The block ")
         for words in filter(None, (symmetry, impacts)):
             assert words in visitor.text("facts")
     visitor.is_content()

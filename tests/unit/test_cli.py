@@ -6,6 +6,7 @@ import json
 import logging
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -15,7 +16,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.cli.main import main
+from rocking.cli.main import NO_MEMORY, main, refused
 from rocking.model.text import ordinal
 from rocking.papers.report.claim import Chapter, Finding
 from rocking.papers.report.paper import Paper
@@ -277,6 +278,22 @@ def test_lack_of_memory_or_of_threads_is_one_line_with_the_remedy(rocking, tmp_p
         "cycles, or raise the limits, such as those of ulimit -v and ulimit -u)"
     )
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("limit", [1 << 30, resource.RLIM_INFINITY])
+def test_library_that_fails_without_a_reason_lacks_memory_only_if_that_is_limited(monkeypatch, limit):
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, limit))
+    code, message = refused(SystemError("error return without exception set"))
+    assert (code, message == NO_MEMORY) == ((1, False) if limit == resource.RLIM_INFINITY else (2, True))
+
+
+def test_command_without_memory_for_its_message_prints_one(rocking, monkeypatch):
+    def fail(*_, **__):
+        raise MemoryError
+
+    monkeypatch.setattr("rocking.cli.output.write_csv", fail)
+    monkeypatch.setattr("rocking.cli.main.lacking", fail)
+    assert rocking(f"simulate {NORMALISED} --csv a.csv")[:2] == (2, NO_MEMORY)
 
 
 @pytest.mark.parametrize("megabytes", [200])

@@ -772,3 +772,26 @@ def test_response_that_forgets_is_told_in_the_words_of_the_command_line(rocking)
     facts = dict(texts.verdict(verdict, None)["facts"])
     assert (code, facts["largest Lyapunov exponent λ₁"]) == (0, "−∞ (superstable)")
     assert facts["largest Lyapunov exponent λ₁"] in out
+
+
+@pytest.mark.parametrize(
+    "system, sentence",
+    [
+        (system_with(amplitude=0.5, restitution=0.925), "The block stands at rest."),
+        (
+            system_with(amplitude=2.0, restitution=0.925),
+            "The block keeps moving and repeats its motion every cycle of the base.",
+        ),
+        (
+            system_with(amplitude=6.5, period=0.4, restitution=0.925),
+            "The block keeps moving and repeats its motion every 3 cycles of the base.",
+        ),
+        (system_with(amplitude=12.0, period=2.5, restitution=0.925), "The block falls over."),
+    ],
+)
+def test_verdict_says_in_plain_words_what_the_block_does(system, sentence):
+    assert texts.verdict(rk.classify(system), None)["sentence"] == sentence
+
+
+def test_each_response_has_a_sentence():
+    assert set(texts.SENTENCES) | {rk.Kind.PERIODIC} == set(rk.Kind)
