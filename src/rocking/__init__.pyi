@@ -16,6 +16,7 @@ from rocking.model.system import State as State
 from rocking.model.system import System as System
 from rocking.model.validation import InputWarning as InputWarning
 from rocking.model.validation import NoOrbit as NoOrbit
+from rocking.model.validation import RecordError as RecordError
 from rocking.model.validation import TooManyEvents as TooManyEvents
 from rocking.model.validation import TooShort as TooShort
 from rocking.model.verdict import Kind as Kind
@@ -42,7 +43,6 @@ from rocking.records.read import read_ground_motion as read_ground_motion
 from rocking.records.read import read_ground_motions as read_ground_motions
 from rocking.records.record_set import read_record_set as read_record_set
 from rocking.records.synthetic import synthetic_ground_motions as synthetic_ground_motions
-from rocking.records.text_file import RecordError as RecordError
 from rocking.response.classify import classify as classify
 from rocking.response.correlation_dimension import correlation_dimension as correlation_dimension
 from rocking.response.impact_section import impact_section as impact_section

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 from rocking.papers.yim_lin_1991.surveys import PERIODIC
-from rocking.plot.style import LOOKS
+from rocking.plot.palette import LOOKS
 
 PICTURES = ("history", "portrait", "section", "spectrum", "basin")
 # amplitude, period, restitution, and the known verdict

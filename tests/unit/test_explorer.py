@@ -28,7 +28,7 @@ from rocking.explorer.session import message
 from rocking.model.text import percent
 from rocking.model.verdict import Criterion, Kind
 from rocking.plot import style
-from rocking.plot.style import LOOKS, NONE, looks
+from rocking.plot.palette import LOOKS, NONE, looks
 from rocking.survey import attractors
 from rocking.survey.run_survey import cores
 from surveyed import system_with

@@ -8,7 +8,7 @@ from matplotlib.colors import to_rgb
 
 import rocking as rk
 from rocking.plot.curves import LOOKS as CURVES
-from rocking.plot.style import LOOKS
+from rocking.plot.palette import LOOKS
 from surveyed import system_with
 
 BLOCK = rk.Block(2.0, 0.5)

@@ -14,7 +14,7 @@ import rocking as rk
 from rocking.explorer import ground_maps, texts
 from rocking.explorer.refinement import Picture
 from rocking.plot import palette
-from rocking.plot.style import COLOURS, LOOKS, looks
+from rocking.plot.palette import COLOURS, LOOKS, looks
 
 # Machado, Oliveira and Fernandes (2009), IEEE Trans. Vis. Comput. Graph. 15: at full severity, on linear RGB.
 SEEN = {

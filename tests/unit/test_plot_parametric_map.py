@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 import rocking as rk
-from rocking.plot.style import LOOKS
+from rocking.plot.palette import LOOKS
 from surveyed import system_with
 
 NUMBERS = {kind: number for number, kind in enumerate(rk.Kind)}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.plot.style import COLOURS
+from rocking.plot.palette import COLOURS
 
 CASCADE = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
 VALUES = [10.103037, 10.45, 10.5, 10.6, 10.9, 11.0]

@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 import rocking as rk
-from rocking.plot.style import LOOKS, NONE, looks
+from rocking.plot.palette import LOOKS, NONE, looks
 from rocking.plot.zoomable_map import Pyramid
 
 UP, ACROSS = 700, 300

@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 
 import rocking as rk
-from rocking.plot.style import COLOURS
+from rocking.plot.palette import COLOURS
 
 
 def system(amplitude, period, restitution, phase=0.0, braces=None):

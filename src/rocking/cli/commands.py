@@ -17,6 +17,7 @@ from rocking.cli.options import (
     JSON,
     MODEL,
     NETCDF,
+    NUMBER,
     ONE_AXIS,
     ONE_RANGE,
     ONE_VALUE,
@@ -48,6 +49,7 @@ from rocking.cli.options import (
     output,
     plot,
     quantities,
+    scaling,
     switch,
 )
 
@@ -155,8 +157,9 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
             ),
             *quantities("height", "width", "restitution", "brace_angle", "brace_restitution", *START),
             INERTIA_RATIO,
-            number("scale", "Factor of the record; a negative one reverses it. Default: 1."),
-            number("pga_g", "Peak to which the record is scaled, in units of g; replaces --scale."),
+            *scaling(
+                NUMBER, "the record is", "Factor of the record; a negative one reverses it. Default: 1."
+            ),
             number("channel", "Channel of the file, counted from 1.", 1),
             *READING,
             MODEL,
@@ -204,10 +207,7 @@ rocking record example --height 2 --width 0.5 --pga-g 1.3 \\
                 "Coefficient of restitution e. Default: Housner's value for each slenderness.",
             ),
             INERTIA_RATIO,
-            interval("scale", VALUES, "Factor of the records. Default: 1."),
-            interval(
-                "pga_g", VALUES, "Peak to which each record is scaled, in units of g; replaces --scale."
-            ),
+            *scaling(VALUES, "each record is", "Factor of the records. Default: 1."),
             MODEL,
             *READING,
         ),

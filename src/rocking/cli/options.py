@@ -130,6 +130,8 @@ class Value(click.ParamType):
 class Number(Value):
     """A number: an int if possible, else a float."""
 
+    name = "NUMBER"
+
     def read(self, name: str, text: str) -> float:
         """Return the number in a text."""
         from rocking.model.validation import refusal
@@ -380,7 +382,7 @@ def make(name: str, kind: Value, metavar: str, text: str, default: Any = None, *
 
 def number(name: str, text: str, default: Any = None, **more: Any) -> click.Option:
     """Make an option whose value is a number."""
-    return make(name, NUMBER, "NUMBER", text, default, **more)
+    return make(name, NUMBER, NUMBER.name, text, default, **more)
 
 
 def interval(name: str, kind: Interval, text: str) -> click.Option:
@@ -502,3 +504,9 @@ LEVELS = {
 def levels(kind: Interval = AXIS) -> list[click.Option]:
     """Make the options of the levels of each intensity measure."""
     return [interval(name, kind, f"Levels: {text}.") for name, text in LEVELS.items()]
+
+
+def scaling(kind: Value, records: str, scale: str) -> list[click.Option]:
+    """Make the options `--scale` and `--pga-g` of a command that also takes records as they are."""
+    texts = {"scale": scale, "pga_g": f"Peak to which {records} scaled, in units of g; replaces --scale."}
+    return [make(name, kind, kind.name, text) for name, text in texts.items()]

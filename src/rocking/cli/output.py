@@ -149,12 +149,13 @@ def of_dataset(function: Callable[..., Any]) -> Callable[..., Any]:
 class Report:
     """How a result is printed and written. Each function takes what the command computed and its request.
 
-    `result` returns the result of what was computed, whose data the files and the JSON hold. `more` returns further entries of the
-    JSON. `figure` also takes `rocking.plot`.
+    `result` returns the result of what was computed, whose data the files and the JSON hold. `warnings` and `more` return further
+    entries of the JSON. `figure` also takes `rocking.plot`.
     """
 
     text: Callable[[Any, Request], Text]
     figure: Callable[[Any, Any, Request], Any] | None = None
+    warnings: Callable[[Any, Request], Iterable[str]] | None = None
     more: Callable[[Any, Request], dict[str, Any]] = _nothing
     result: Callable[[Any], Any] = _result
     table: str = ""
@@ -189,9 +190,12 @@ class Report:
             with replacing_hdf5(path) as file:
                 self.result(computed).to_xarray(block=request.block).to_netcdf(file, engine="h5netcdf")
 
-    def record(self, computed: Any, request: Request) -> dict[str, Any]:
-        """Return the result as values of JSON."""
-        return self.result(computed).to_dict(block=request.block)
+    def json(self, computed: Any, request: Request) -> dict[str, Any]:
+        """Return the JSON of the result, its warnings included."""
+        entries = self.result(computed).to_dict(block=request.block) | self.more(computed, request)
+        if self.warnings is not None:
+            entries["warnings"] = list(self.warnings(computed, request))
+        return entries
 
 
 def write(report: Report, computed: Any, request: Request, files: Mapping[str, Path]) -> None:
@@ -233,7 +237,7 @@ def show(report: Report, result: Any, request: Request, paths: Sequence[Path]) -
     """Print the result as a table or as JSON, and the paths of the files."""
     if request.options.get("json"):
         files = {"files": [str(path) for path in paths]}
-        print_json(report.record(result, request) | report.more(result, request) | files)
+        print_json(report.json(result, request) | files)
     else:
         print_table(report.text(result, request), paths)
 

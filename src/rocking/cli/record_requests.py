@@ -28,7 +28,7 @@ from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.record_set import RecordSet
 from rocking.model.text import formatted_path, listed
-from rocking.model.validation import refuse_if, within
+from rocking.model.validation import RecordError, refuse_if, within
 
 MIN_PGA, MAX_PGA = 1e-9, 1e5
 OMIT = "omit it for the record as it is"
@@ -49,8 +49,6 @@ def block_in_si(options: Options) -> Block:
 @contextmanager
 def reading(names: Mapping[str, str]) -> Iterator[list[str]]:
     """Convert errors of the reader to `InvalidInput`; its warnings are in the list when the block ends."""
-    from rocking.records.text_file import RecordError
-
     sentences: list[str] = []
     with refusals(names), warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -82,12 +80,17 @@ def record(options: Options) -> Request:
     return Request(arguments, options, block, NAMES, sentences, records=ground)
 
 
+def check_scaling(options: Options) -> None:
+    """Raise InvalidInput for both options of `scaling`."""
+    if "scale" in options and "pga_g" in options:
+        raise InvalidInput("give --scale or --pga-g, not both")
+
+
 def ground_motion(options: Options) -> tuple[GroundMotion, list[str]]:
     """Return the ground motion of the options, scaled, and the warnings of the reader; InvalidInput if invalid."""
     from rocking.records.read import read_ground_motion
 
-    if "scale" in options and "pga_g" in options:
-        raise InvalidInput("give --scale or --pga-g, not both")
+    check_scaling(options)
     with reading(NAMES) as sentences:
         ground = read_ground_motion(options["file"], **select(options, "channel", *READING))
     with refusals(NAMES):
@@ -207,8 +210,7 @@ def spectrum(options: Options) -> Request:
             options, "size", "restitution", "inertia_ratio", "model", "repair", "store"
         ).items()
     }
-    if "scale" in options and "pga_g" in options:
-        raise InvalidInput("give --scale or --pga-g, not both")
+    check_scaling(options)
     if "scale" in options:
         arguments["levels"] = values_of(options["scale"])
     if "pga_g" in options:

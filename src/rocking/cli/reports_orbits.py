@@ -98,7 +98,7 @@ def orbit_warnings(system: System, block: Block | None) -> list[str]:
 
 ORBITS = Report(
     orbits_text,
-    more=lambda orbits, request: {"warnings": orbit_warnings(orbits.system, request.block)},
+    warnings=lambda orbits, request: orbit_warnings(orbits.system, request.block),
 )
 
 
@@ -145,10 +145,8 @@ def branch_ends(branch: Branch) -> Iterator[tuple[str, float, str]]:
 
 CONTINUE = Report(
     branch_text,
-    more=lambda followed, request: {
-        "orbit": followed.orbit.to_dict(block=request.block),
-        "warnings": orbit_warnings(followed.orbit.system, request.block),
-    },
+    warnings=lambda followed, request: orbit_warnings(followed.orbit.system, request.block),
+    more=lambda followed, request: {"orbit": followed.orbit.to_dict(block=request.block)},
     result=lambda followed: followed.branch,
 )
 
@@ -209,7 +207,7 @@ def response_warnings(result: FrequencyResponse, block: Block | None) -> list[st
 
 FREQUENCY_RESPONSE = Report(
     response_text,
-    more=lambda result, request: {"warnings": response_warnings(result, request.block)},
+    warnings=lambda result, request: response_warnings(result, request.block),
 )
 
 
@@ -255,5 +253,5 @@ def diagram_warnings(diagram: OrbitDiagram, block: Block | None) -> list[str]:
 
 ORBIT_DIAGRAM = Report(
     diagram_text,
-    more=lambda diagram, request: {"warnings": diagram_warnings(diagram, request.block)},
+    warnings=lambda diagram, request: diagram_warnings(diagram, request.block),
 )

@@ -242,7 +242,7 @@ def fit_text(value: float, low: float, high: float) -> str:
 
 FRAGILITY = Report(
     fragility_text,
-    more=lambda result, request: {"warnings": list(fragility_warnings(result, request))},
+    warnings=fragility_warnings,
 )
 
 
@@ -285,7 +285,7 @@ def changes(result: Sensitivity) -> Iterator[tuple[Any, ...]]:
 
 SENSITIVITY = Report(
     sensitivity_text,
-    more=lambda result, request: {"warnings": list(sensitivity_warnings(result, request))},
+    warnings=sensitivity_warnings,
 )
 
 
@@ -334,5 +334,5 @@ def set_rows(result: OverturningSet) -> Iterator[Row]:
 
 OVERTURNING_SET = Report(
     set_text,
-    more=lambda result, request: {"warnings": list(set_warnings(result, request))},
+    warnings=set_warnings,
 )

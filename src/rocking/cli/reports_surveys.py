@@ -159,7 +159,7 @@ def tangled_from(system: System) -> float | None:
 
 BASINS = Report(
     basins_text,
-    more=lambda basins, request: {"warnings": basins_warnings(basins, request.block)},
+    warnings=lambda basins, request: basins_warnings(basins, request.block),
 )
 
 
@@ -205,7 +205,7 @@ def tangency_lines(result: SafeBasin, block: Block | None) -> Iterator[str]:
 
 SAFE_BASIN = Report(
     safe_text,
-    more=lambda result, request: {"warnings": data_warnings(result.dataset, request.block)},
+    warnings=lambda result, request: data_warnings(result.dataset, request.block),
 )
 
 
@@ -288,7 +288,7 @@ def number_text(number: float, digits: int = 6) -> str:
 
 OVERTURNING = Report(
     overturning_text,
-    more=lambda result, request: {"warnings": overturning_warnings(result, request.block)},
+    warnings=lambda result, request: overturning_warnings(result, request.block),
 )
 
 

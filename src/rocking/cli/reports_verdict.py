@@ -330,5 +330,5 @@ def peak_text(angle: float, block: Block | None) -> str:
 MODES = Report(
     modes_text,
     figure=modes_figure,
-    more=lambda modes, request: {"warnings": modes_warnings(modes, request.block)},
+    warnings=lambda modes, request: modes_warnings(modes, request.block),
 )

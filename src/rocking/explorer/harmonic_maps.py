@@ -13,7 +13,7 @@ from rocking.explorer.figures import Axes
 from rocking.explorer.harmonic_view import HarmonicView
 from rocking.explorer.refinement import Measure, Picture, Results
 from rocking.model.verdict import Kind
-from rocking.plot import style, theory_curves
+from rocking.plot import palette, style, theory_curves
 from rocking.survey.attractors import classify_with_anchor, pairs_of_equal_states
 from rocking.survey.verdict_measures import classify_points
 
@@ -25,11 +25,11 @@ STRIPES, STRIPE = 7, 2
 """Spacing and width of the stripes of a hatch, in points."""
 SHADES = 3
 """Shades per category; the orbits of a category use them in turn."""
-PLAIN = SHADES * len(style.LOOKS)
+PLAIN = SHADES * len(palette.LOOKS)
 """Number of shades of all categories."""
 HATCH, NOTHING = PLAIN, PLAIN + 1
 """Palette indices after the shades: stripe of a hatch, transparent."""
-SHADED = [look.shade(number) for number in range(SHADES) for look in style.LOOKS]
+SHADED = [look.shade(number) for number in range(SHADES) for look in palette.LOOKS]
 PALETTE = [*SHADED, style.INK, "#00000000"]
 """Palette of a map, indexed by `colours`: shades of all categories, stripe of a hatch, transparent."""
 CURVE_POINTS = 300
@@ -122,7 +122,7 @@ class Responses(Measure):
     def stored(self, results: Results) -> Results:
         """Return the results with their categories."""
         names = "kind", "response_period", "symmetric"
-        return results | {"look": style.looks(*(results[name] for name in names))}
+        return results | {"look": palette.looks(*(results[name] for name in names))}
 
     def undecided(self, fields: Mapping[str, np.ndarray]) -> np.ndarray:
         """Return the points that the few cycles of the first map do not classify."""
@@ -151,7 +151,7 @@ class Basins(Responses):
     def blank(self) -> dict[str, np.ndarray]:
         """Return the category of an invalid initial state where there is one."""
         fields = super().blank()
-        fields["look"][~self.valid()] = style.NONE
+        fields["look"][~self.valid()] = palette.NONE
         return fields
 
 
@@ -238,12 +238,12 @@ def answers(picture: Picture) -> dict[str, np.ndarray]:
 def _shades(picture: Picture) -> np.ndarray:
     """Return the indices of the shades; `PLAIN` for an invalid initial state."""
     look, shade = picture.fields["look"], picture.fields["orbit"] % SHADES
-    return np.where(look == style.NONE, PLAIN, look + len(style.LOOKS) * shade)
+    return np.where(look == palette.NONE, PLAIN, look + len(palette.LOOKS) * shade)
 
 
 def _colours() -> np.ndarray:
     """Return the palette indices of all shades and of `PLAIN`: between the stripes (row 0) and on them (row 1)."""
-    hatched = [look.hatch is not None for look in style.LOOKS] * SHADES + [False]
+    hatched = [look.hatch is not None for look in palette.LOOKS] * SHADES + [False]
     plain = np.append(np.arange(PLAIN), NOTHING)
     return np.array([plain, np.where(hatched, HATCH, plain)], np.uint8)
 

@@ -19,7 +19,7 @@ from rocking.explorer.refinement import Picture, Refinement
 from rocking.explorer.session import Job, Session
 from rocking.model.quantity import AMPLITUDE, ANGLE, PERIOD, VELOCITY
 from rocking.model.verdict import Criterion, Kind, Verdict
-from rocking.plot import style
+from rocking.plot import palette
 
 BASIN_POINTS = 257
 FIRST_HITS = 3e3
@@ -268,8 +268,8 @@ PAGE = Page(
     "rocking explorer",
     HarmonicSession,
     constants={
-        "looks": [look.name for look in style.LOOKS],
-        "colours": [look.colour for look in style.LOOKS],
+        "looks": [look.name for look in palette.LOOKS],
+        "colours": [look.colour for look in palette.LOOKS],
         "grounds": [each.brief for each in Criterion],
         "levels": [each.level for each in Criterion],
     },

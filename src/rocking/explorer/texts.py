@@ -16,7 +16,7 @@ from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import Harmonic
 from rocking.model.text import counted, percent
 from rocking.model.verdict import Kind, Verdict
-from rocking.plot import style
+from rocking.plot import palette
 
 Facts = list[tuple[str, str]]
 
@@ -44,7 +44,7 @@ def verdict(result: Verdict, block: Block | None) -> dict[str, Any]:
     return {
         "kind": str(result.kind),
         "sentence": sentence(result),
-        "colour": style.look_of(result).colour,
+        "colour": palette.look_of(result).colour,
         "facts": facts,
         "evidence": str(result.evidence),
     }
@@ -116,7 +116,7 @@ def legend(counts: np.ndarray) -> list[dict[str, str]]:
     total = max(int(counts.sum()), 1)
     return [
         _entry(look.name, look.colour, look, count / total)
-        for look, count in zip(style.LOOKS, counts.tolist(), strict=True)
+        for look, count in zip(palette.LOOKS, counts.tolist(), strict=True)
     ]
 
 
@@ -127,16 +127,16 @@ def attractors(counts: np.ndarray) -> list[dict[str, str]]:
     """
     total, entries = max(int(counts.sum()), 1), []
     for place in np.argsort(-counts.sum(axis=0), kind="stable").tolist():
-        name, look = style.LOOKS[place].name, style.LOOKS[place]
+        name, look = palette.LOOKS[place].name, palette.LOOKS[place]
         for shade in np.argsort(-counts[:, place], kind="stable").tolist():
             if counts[shade, place] >= MIN_SHARE * total:
-                colour = SHADED[shade * len(style.LOOKS) + place]
+                colour = SHADED[shade * len(palette.LOOKS) + place]
                 entries.append(_entry(name, colour, look, counts[shade, place] / total))
                 name = "another orbit"
     return entries
 
 
-def _entry(name: str, colour: str, look: style.Look, share: float) -> dict[str, str]:
+def _entry(name: str, colour: str, look: palette.Look, share: float) -> dict[str, str]:
     return {
         "name": name,
         "colour": colour,

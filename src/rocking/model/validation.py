@@ -116,6 +116,17 @@ class NoOrbit(ValueError):
         return type(self), (str(self), self.phase, self.state, self.residual), self.__dict__
 
 
+class RecordError(ValueError):
+    """Record file that cannot be read. The message is one line and names the file and the place.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> str(rk.RecordError("a.at2, line 4: no step"))
+    'a.at2, line 4: no step'
+    """
+
+
 class Text(str):
     """Text that messages print as it is, without quotation marks."""
 

@@ -19,8 +19,8 @@ from rocking.orbits.find_orbits import Orbits
 from rocking.orbits.frequency_response import FrequencyResponse
 from rocking.plot import palette, style
 from rocking.plot.axes import Units, parameter, units_of
+from rocking.plot.palette import COLOURS
 from rocking.plot.sections import at_phase
-from rocking.plot.style import COLOURS
 
 Drawn = TypeVar("Drawn")
 

@@ -22,7 +22,8 @@ from rocking.model.text import formatted_path, percent
 from rocking.model.validation import WrongType, refuse_if
 from rocking.plot import palette, style, theory_curves
 from rocking.plot.axes import parameter
-from rocking.plot.style import LOOKS, NONE, PAPER, Symbol, check_symbols, looks
+from rocking.plot.palette import LOOKS, NONE, looks
+from rocking.plot.style import PAPER, Symbol, check_symbols
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -17,7 +17,7 @@ from rocking.model.validation import Refusal, instance
 from rocking.model.verdict import Kind
 from rocking.plot import palette, style
 from rocking.plot.axes import parameter
-from rocking.plot.style import COLOURS, look_at
+from rocking.plot.palette import COLOURS, look_at
 
 DECADES = (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0)
 # The axis reaches beyond its outermost points by this factor; the break lies at this multiple of the place of e = 1.

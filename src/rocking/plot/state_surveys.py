@@ -17,7 +17,7 @@ from rocking.model.verdict import Kind
 from rocking.plot import style
 from rocking.plot.axes import parameter
 from rocking.plot.maps import MAX_DRAWN
-from rocking.plot.style import Look, look_of
+from rocking.plot.palette import Look, look_of
 
 NAMED = 8
 """Maximum number of attractors in the legend; all attractors are drawn."""

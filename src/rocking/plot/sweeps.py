@@ -19,7 +19,7 @@ from rocking.orbits.orbit_diagram import OrbitDiagram
 from rocking.orbits.response_diagram import ResponseDiagram
 from rocking.plot import branch_lines, figures, style
 from rocking.plot.axes import parameter, units_of
-from rocking.plot.style import COLOURS, LOOKS, Look, looks
+from rocking.plot.palette import COLOURS, LOOKS, Look, looks
 
 SWEEPS = {
     "up": ("swept up", style.MOTION),

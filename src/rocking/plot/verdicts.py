@@ -23,8 +23,8 @@ from rocking.motion.simulate import simulate
 from rocking.plot import figures, style
 from rocking.plot.axes import Units, units_of
 from rocking.plot.motions import phase_portrait, settled, time_history
+from rocking.plot.palette import look_of
 from rocking.plot.sections import section
-from rocking.plot.style import look_of
 from rocking.response.lyapunov import LyapunovSpectrum
 
 ENDS = (Kind.OVERTURNED, Kind.REST)

@@ -23,7 +23,7 @@ from rocking.model.text import percent
 from rocking.plot import palette, style
 from rocking.plot.axes import parameter
 from rocking.plot.maps import Responses
-from rocking.plot.style import LOOKS, NONE
+from rocking.plot.palette import LOOKS, NONE
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.model.text import counted, formatted
-from rocking.records.text_file import MAX_SAMPLES, NUMBER, Channel, RecordError, TextFile
+from rocking.model.validation import RecordError
+from rocking.records.text_file import MAX_SAMPLES, NUMBER, Channel, TextFile
 from rocking.records.units import (
     IN_BRACKETS,
     OTHER_TIMES,
@@ -19,7 +20,6 @@ from rocking.records.units import (
     header_units,
     is_line_of_units,
     is_other,
-    only,
     titles,
     unit_of,
 )
@@ -87,14 +87,13 @@ def read(file: TextFile) -> list[Channel]:
     else:
         titled = _titles(file, first, width)
         header = [line for line in file.lines[:first] if len(cells(line)) != width]
-    named, mentioned = header_units(header)
+    units = header_units(header)
     step = None if width == 1 else _step(file, places, [row[0] for row in rows])
     result = []
     for place, (name, unit) in enumerate(titled, width - len(titled)):
         samples = file.numbers(places, [row[place] for row in rows], "a sample")
-        stated = frozenset([unit]) if unit else named
-        channel = Channel(samples, only(stated or mentioned), step, "text", component=name)
-        result.append(channel._replace(named=stated, mentioned=mentioned))
+        stated = units._replace(named=frozenset([unit])) if unit else units
+        result.append(Channel(samples, stated.only(), step, "text", component=name, header=stated))
     return result
 
 

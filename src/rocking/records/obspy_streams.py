@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from rocking.model.package import missing_extra
-from rocking.records.text_file import TEXTS, Channel, Content, RecordError
+from rocking.model.validation import RecordError
+from rocking.records.text_file import TEXTS, Channel, Content
 
 FORMATS = ("MSEED", "SAC", "SACXY", "KINEMETRICS_EVT", "GSE2")
 """Formats of ObsPy that are tried. Each is named, because its search for the format also unpickles a file."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from rocking.records.text_file import Channel, TextFile
-from rocking.records.units import header_units, only
+from rocking.records.units import header_units
 
 TITLE = r"(ACCELERATION|VELOCITY|DISPLACEMENT)\s+TIME\s+(?:SERIES|HISTORY)\s+IN\s+UNITS\s+OF\s+(\S+)"
 OTHER = r"\b(VELOCITY|DISPLACEMENT)\b"
@@ -25,8 +25,8 @@ def read(file: TextFile) -> list[Channel]:
     if other:
         raise file.error(2, f"acceleration expected, but the file holds {other.lower()}; give the .AT2 file")
     title = file.find(TITLE, 2, 3)
-    named, mentioned = header_units([] if title else file.lines[:4])
-    unit = only(named or mentioned) if title is None else file.unit(2, title[1].group(2))
+    stated = header_units([] if title else file.lines[:4])
+    unit = stated.only() if title is None else file.unit(2, title[1].group(2))
     if title is not None:
         file.line(3)
     header = _counts(file, 2 if title is None else 3)
@@ -43,9 +43,7 @@ def read(file: TextFile) -> list[Channel]:
             "PEER AT2",
             name.strip(),
             component.strip(),
-            named=named,
-            mentioned=mentioned,
-            lacking="" if unit else NO_TITLE,
+            header=stated._replace(lacking="" if unit else NO_TITLE),
         )
     ]
 

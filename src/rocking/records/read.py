@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion, RecordFile, pga_doubt
-from rocking.model.validation import Refusal, one_of, warn_of_input, whole, within
+from rocking.model.validation import RecordError, Refusal, one_of, warn_of_input, whole, within
 from rocking.records import columns, cosmos, csmip, esm, geonet, knet, obspy_streams, peer, smc
-from rocking.records.text_file import Channel, Content, RecordError, TextFile
-from rocking.records.units import UNITS, given_unit
+from rocking.records.text_file import Channel, Content, TextFile
+from rocking.records.units import UNITS, given_unit, stated_once, unit_of_samples
 
 FORMATS: tuple[Any, ...] = (cosmos, smc, esm, geonet, knet, peer, csmip, columns)
 """Readers in the order in which they are tried; any text of numbers has columns."""
@@ -210,30 +210,9 @@ def _warned(source: _Source, number: int, motion: GroundMotion, messages: list[s
 def _motion(source: _Source, number: int, settings: _Settings) -> tuple[GroundMotion, list[str]]:
     """Return the motion of a channel, and a sentence on each doubt about its unit."""
     channel, several = source.channels[number - 1], len(source.channels) > 1
-    place, messages = _place(source, number), []
-    stated = channel.unit
-    named = " and ".join(sorted(channel.named))
-    if len(channel.named) > 1 and settings.unit not in channel.named:
-        rejected = f", not {settings.unit}" if settings.unit else ""
-        raise RecordError(f"{place}: the header names the units {named}{rejected}; give one of them as units")
-    if len(channel.named) > 1:
-        messages.append(f"units={settings.unit!r} is used; the header names {named}")
-    elif settings.unit and channel.named and settings.unit not in channel.named:
-        raise RecordError(f"{place}: the header names {named}; omit units, or correct the header")
-    if settings.unit and channel.mentioned and not channel.named:
-        stated = None
-        if settings.unit not in channel.mentioned:
-            names = " and ".join(sorted(channel.mentioned))
-            messages.append(f"units={settings.unit!r} is used, though the header mentions {names}")
-    unit = _stated(
-        f"{place}: {channel.lacking}" if channel.lacking else place,
-        "units",
-        stated,
-        settings.unit,
-        "the unit of its samples",
-        "g" if channel.lacking else "m/s²",
-    )
-    step = _stated(place, "step", channel.step, settings.step, "its time step", "0.01")
+    place = _place(source, number)
+    unit, messages = unit_of_samples(place, channel.unit, channel.header, settings.unit)
+    step = stated_once(place, "step", channel.step, settings.step, "its time step", "0.01")
     samples = channel.samples * UNITS[unit]
     name, component = (" ".join(text.split()) for text in (channel.name, channel.component))
     file = None
@@ -268,18 +247,6 @@ def _motion(source: _Source, number: int, settings: _Settings) -> tuple[GroundMo
             f"the samples have a PGA of {file.pga:.5g} m/s², the header states {file.header_pga:.5g} m/s²"
         )
     return motion, messages
-
-
-def _stated(place: str, argument: str, stated: Any, value: Any, what: str, example: str) -> Any:
-    """Return what the file states or the argument gives; `RecordError` unless exactly one does."""
-    if stated is None and value is None:
-        example_text = repr(example) if argument == "units" else example
-        raise RecordError(
-            f"{place}: the file does not state {what}; give it, for example {argument}={example_text}"
-        )
-    if stated is not None and value is not None:
-        raise RecordError(f"{place}: the file states {what}, {stated}; do not give {argument}")
-    return value if stated is None else stated
 
 
 MAX_MEMORY = 4 << 30

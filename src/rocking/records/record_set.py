@@ -18,9 +18,9 @@ from rocking.model.files import resolve_path
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.record_set import RecordSet
 from rocking.model.text import counted, formatted, listed
-from rocking.model.validation import Refusal, WrongType, members, warn_of_input
+from rocking.model.validation import RecordError, Refusal, WrongType, members, warn_of_input
 from rocking.records.read import read_ground_motion, read_ground_motions
-from rocking.records.text_file import TEXTS, Content, RecordError, TextFile
+from rocking.records.text_file import TEXTS, Content, TextFile
 
 FILE = "file"
 OWN = (FILE, "channel", "scale", "units", "step", "name")

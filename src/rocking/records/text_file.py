@@ -14,21 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.model.text import both_ends, counted, formatted
-from rocking.model.validation import WrongType
-from rocking.records.units import UNITS, unit_of
+from rocking.model.validation import RecordError, WrongType
+from rocking.records.units import UNITS, HeaderUnits, unit_of
 
 TEXTS = "formats: PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, text in columns"
-
-
-class RecordError(ValueError):
-    """Record file that cannot be read. The message is one line and names the file and the place.
-
-    Examples
-    --------
-    >>> import rocking as rk
-    >>> str(rk.RecordError("a.at2, line 4: no step"))
-    'a.at2, line 4: no step'
-    """
 
 
 class Peak(NamedTuple):
@@ -51,12 +40,8 @@ class Channel(NamedTuple):
     name: str = ""
     component: str = ""
     peak: Peak | None = None
-    named: frozenset[str] = frozenset()
-    """Units of acceleration that the header states, also where several leave the unit open."""
-    mentioned: frozenset[str] = frozenset()
-    """Units of acceleration that other words of the header mention."""
-    lacking: str = ""
-    """Sentence on the missing line that would state the unit; empty if no line is missing."""
+    header: HeaderUnits = HeaderUnits()
+    """What a header without a fixed place for the unit states about it."""
 
 
 MAX_BYTES = 300_000_000

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 from rocking.model.block_formulas import GRAVITY
-from rocking.model.validation import Refusal, WrongType
+from rocking.model.validation import RecordError, Refusal, WrongType
 
 UNITS = {"m/s²": 1.0, "cm/s²": 0.01, "mm/s²": 0.001, "g": GRAVITY, "g/10": GRAVITY / 10}
 """Size of each unit of acceleration, in m/s²."""
@@ -89,16 +90,33 @@ def unit_of(text: str) -> str | None:
     return SPELLINGS.get(_plain(text))
 
 
-def header_units(lines: Sequence[str]) -> tuple[frozenset[str], frozenset[str]]:
-    """Return the units of acceleration that a header states, and those that its other words mention.
+class HeaderUnits(NamedTuple):
+    """Units of acceleration in a header that has no fixed place for the unit."""
+
+    named: frozenset[str] = frozenset()
+    """Units that the header states, also where several leave the unit open."""
+    mentioned: frozenset[str] = frozenset()
+    """Units that its other words mention."""
+    lacking: str = ""
+    """Sentence on the missing line that would state the unit; empty if no line is missing."""
+
+    def only(self) -> str | None:
+        """Return the unit that the header states or, if it states none, mentions; None if there is none, or several."""
+        units = self.named or self.mentioned
+        return next(iter(units)) if len(units) == 1 else None
+
+
+def header_units(lines: Sequence[str]) -> HeaderUnits:
+    """Return the units of acceleration in the lines of a header.
 
     Stated are those of a line of units alone, and of a cell that speaks of acceleration or of units. Elsewhere, only what can be
     nothing else, such as m/s², counts as mentioned.
 
     Examples
     --------
-    >>> [sorted(units) for units in header_units(["t acc_g", "recorded in G building, at most 3 m/s^2"])]
-    [['g'], ['m/s²']]
+    >>> units = header_units(["t acc_g", "recorded in G building, at most 3 m/s^2"])
+    >>> sorted(units.named), sorted(units.mentioned)
+    (['g'], ['m/s²'])
     """
     stated, mentioned = [], []
     for line in lines:
@@ -111,16 +129,11 @@ def header_units(lines: Sequence[str]) -> tuple[frozenset[str], frozenset[str]]:
                 stated += STATED.findall(cell[word.start() :])
             else:
                 mentioned += [each for each in named if not each.isalpha()]
-    return _units(stated), _units(mentioned)
+    return HeaderUnits(_units(stated), _units(mentioned))
 
 
 def _units(texts: Sequence[str]) -> frozenset[str]:
     return frozenset(unit for unit in map(unit_of, texts) if unit is not None)
-
-
-def only(named: frozenset[str]) -> str | None:
-    """Return the unit that a header names; None if it names none, or several."""
-    return next(iter(named)) if len(named) == 1 else None
 
 
 def titles(line: str) -> list[str]:
@@ -171,3 +184,43 @@ def given_unit(units: str) -> str:
     if result is None:
         raise Refusal("units", CHOICES, units)
     return result
+
+
+def unit_of_samples(
+    place: str, unit: str | None, header: HeaderUnits, given: str | None
+) -> tuple[str, list[str]]:
+    """Return the unit of the samples of a channel, and a sentence on each doubt about it.
+
+    It is the unit that the file states, or the argument `units`, `given`; `RecordError`, which begins with `place`, if they contradict
+    each other, or if there is none.
+    """
+    named, mentioned = (" and ".join(sorted(units)) for units in (header.named, header.mentioned))
+    messages = []
+    if given not in header.named:
+        if len(header.named) > 1:
+            rejected = f", not {given}" if given else ""
+            raise RecordError(
+                f"{place}: the header names the units {named}{rejected}; give one of them as units"
+            )
+        if given and header.named:
+            raise RecordError(f"{place}: the header names {named}; omit units, or correct the header")
+    elif len(header.named) > 1:
+        messages.append(f"units={given!r} is used; the header names {named}")
+    if given and header.mentioned and not header.named:
+        unit = None
+        if given not in header.mentioned:
+            messages.append(f"units={given!r} is used, though the header mentions {mentioned}")
+    where, example = (f"{place}: {header.lacking}", "g") if header.lacking else (place, "m/s²")
+    return stated_once(where, "units", unit, given, "the unit of its samples", example), messages
+
+
+def stated_once(place: str, argument: str, stated: Any, value: Any, what: str, example: str) -> Any:
+    """Return what the file states or the argument gives; `RecordError` unless exactly one does."""
+    if stated is None and value is None:
+        example_text = repr(example) if argument == "units" else example
+        raise RecordError(
+            f"{place}: the file does not state {what}; give it, for example {argument}={example_text}"
+        )
+    if stated is not None and value is not None:
+        raise RecordError(f"{place}: the file states {what}, {stated}; do not give {argument}")
+    return value if stated is None else stated
