@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.orbits.branch import distinct
+from rocking.orbits.special_points import distinct
 
 STEPS = (0.05, 0.01, 0.003)
 

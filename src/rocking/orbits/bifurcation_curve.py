@@ -14,7 +14,7 @@ from rocking.kernels.orbits import bifurcation_curve as kernel
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.result import Result
 from rocking.model.validation import Refusal, instance, one_of, pair, whole
-from rocking.orbits.branch import ENDS, SpecialPoint, chain_at
+from rocking.orbits.branch import ENDS
 from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of
 from rocking.orbits.curve_ends import until_parent
 from rocking.orbits.curve_zeros import CurveRows
@@ -22,6 +22,7 @@ from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Spe
 from rocking.orbits.grazing import touches_again
 from rocking.orbits.parameter import check_range, check_step, value_of
 from rocking.orbits.result_columns import of_curve
+from rocking.orbits.special_points import FOLD, GRAZING, SpecialPoint, chain_at
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -242,8 +243,8 @@ def _half(
 def _condition(special: SpecialPoint) -> tuple[Chain, Condition]:
     """Return the chain to follow and its condition; of a grazing, the chain without the grazing event."""
     chain = chain_at(special)
-    if special.kind != "grazing":
-        kind = Special.FOLD if special.kind == "fold" else Special.PERIOD_DOUBLING
+    if special.kind != GRAZING:
+        kind = Special.FOLD if special.kind == FOLD else Special.PERIOD_DOUBLING
         chain = chain._replace(system=special.orbit.system, phases=special._row[:-1])
         return chain, Condition(kind, -1, IMPACT, 0.0)
     if special._touch is None:

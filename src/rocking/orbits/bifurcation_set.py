@@ -15,12 +15,13 @@ from rocking.model.system import System
 from rocking.model.text import counted
 from rocking.model.validation import WrongType, instance, one_of, whole
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
-from rocking.orbits.branch import Branch, SpecialPoint
+from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import NAMES
 from rocking.orbits.find_orbits import find_orbits
 from rocking.orbits.parameter import check_range, check_step, value_of, with_value
 from rocking.orbits.result_columns import of_curves
+from rocking.orbits.special_points import BEGINS_BRANCH, PERIOD_DOUBLING, SpecialPoint
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -197,8 +198,8 @@ class _Search:
 
     def born_at(self, special: SpecialPoint) -> tuple[Branch, ...]:
         """Return the branches that bifurcate at a special point, one of each pair of mirror images."""
-        longest = self.max_period // (2 if special.kind == "period-doubling" else 1)
-        if special.kind not in ("symmetry-breaking", "period-doubling") or special.orbit.period > longest:
+        longest = self.max_period // (2 if special.kind == PERIOD_DOUBLING else 1)
+        if special.kind not in BEGINS_BRANCH or special.orbit.period > longest:
             return ()
         return switch_branch(special, self.bounds[1], self.step)[:1]
 

@@ -1,9 +1,9 @@
-"""Branches of periodic orbits: their tables and rows, their special points, and their halves."""
+"""Branches of periodic orbits: their tables and rows, their halves, and their columns."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
@@ -17,20 +17,9 @@ from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
 from rocking.model.result import Result
 from rocking.model.system import System
 from rocking.model.validation import WrongType, whole, within
-from rocking.orbits.event_chain import (
-    Chain,
-    End,
-    Special,
-    equations,
-    multipliers_of,
-    orbit_of,
-    sides_of,
-    solved,
-    states,
-)
-from rocking.orbits.grazing import GrazingContact, grazing_at
-from rocking.orbits.parent_branch import special_points
+from rocking.orbits.event_chain import Chain, End, multipliers_of, orbit_of, solved, states
 from rocking.orbits.result_columns import of_branch
+from rocking.orbits.special_points import GRAZING, SpecialPoint, distinct, special_points
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -129,80 +118,6 @@ def joined(
 
 # End of a branch at the special point from which ``switch_branch`` follows it.
 BRANCHES_OFF = "branches off at a special point"
-
-
-class Origin(NamedTuple):
-    """Branch on which a special point was met."""
-
-    counts: tuple[int, int]  # impacts and brace impacts per period
-    side: float  # on which side of the special point the parameter of its points lies: -1 or 1
-
-
-@frozen(eq=False)
-class SpecialPoint:
-    """Special point of a branch: a bifurcation or a grazing.
-
-    Attributes
-    ----------
-    kind : str
-        Type of the point:
-
-        - "fold": two orbits meet and vanish;
-        - "symmetry-breaking": two asymmetric orbits, mirror images of each other, branch off a symmetric one;
-        - "period-doubling": an orbit of twice the period branches off;
-        - "grazing": the block just touches the base or a brace. Beyond, the orbit has an impact more or less.
-    parameter : float
-        Value of the parameter.
-    orbit : Orbit
-        Orbit at this point. At a grazing, it is the orbit without the grazing impact, because its multipliers would be
-        infinite with it.
-    name : str
-        Name of the parameter.
-    index : int
-        The point lies between the points `index - 1` and `index` of its branch. A grazing is the first or last point, unless
-        the orbit rests: its branch then continues.
-
-    Notes
-    -----
-    A branch turns where it meets the branch from which it bifurcates. There it has a symmetry breaking or a period doubling, as
-    the other branch has, and `orbit` is the orbit of the other branch.
-
-    In a simulation of a grazing orbit, rounding decides if the grazing impact occurs. If it does, with a speed of about
-    10⁻⁸, the motion leaves the orbit, and `orbit.residual` is the resulting distance. `continue_orbit` therefore rejects this
-    orbit. Use a neighbouring one, `branch.orbit(index)`.
-
-    Examples
-    --------
-    >>> import rocking as rk
-    >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
-    >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 30))
-    >>> print(branch.special[0])
-    symmetry-breaking at amplitude 23.18505548: symmetric orbit of period 1 with 2 impacts
-    """
-
-    kind: str
-    parameter: float
-    orbit: Orbit
-    name: str
-    index: int
-    _chain: Chain | None = field(repr=False)  # None for a full block
-    _row: np.ndarray = field(repr=False)
-    _touch: GrazingContact | None = field(default=None, repr=False)
-    _origin: Origin | None = field(default=None, repr=False)
-
-    def __str__(self) -> str:
-        return f"{self.kind} at {self.name} {self.parameter:.10g}: {self.orbit}"
-
-
-def chain_at(special: SpecialPoint) -> Chain:
-    """Return the chain of events at a special point; TypeError for a full block or an orbit that rests, which have none."""
-    if special.orbit.superstable:
-        allowed = "be that of an orbit without rest and without sustained contact with a brace"
-        raise WrongType("special", allowed, f"a {special.kind} of an orbit that rests")
-    if special._chain is None:
-        allowed = "be that of a slender block, whose arcs are closed forms"
-        raise WrongType("special", allowed, f"critical_angle {special.orbit.system.critical_angle}")
-    return special._chain
 
 
 @frozen(eq=False)
@@ -428,63 +343,9 @@ def _extent(low: str, high: str, unit: str) -> str:
     return f"at {low}{unit}" if low == high else f"from {low} to {high}{unit}"
 
 
-# Largest relative difference of the parameter, and of a phase in rad, between two passages of one special point.
-SAME_PARAMETER, SAME_PHASE = 1e-9, 1e-5
-
-
-def distinct(points: Iterable[SpecialPoint]) -> tuple[SpecialPoint, ...]:
-    """Return the special points of a branch, each at its first passage."""
-    rows: list[SpecialPoint] = []
-    for point in points:
-        if not any(_same(point, other) for other in rows):
-            rows.append(point)
-    return tuple(rows)
-
-
-def _same(one: SpecialPoint, other: SpecialPoint) -> bool:
-    """Return whether two special points of a branch have the same orbit, some cycles later, or mirror images of each other."""
-    if one.kind != other.kind or one._chain is None or other._chain is None:
-        return False
-    # a branch may lie on both sides of a grazing
-    if one.kind == "grazing" and one._origin != other._origin:
-        return False
-    if not abs(one.parameter - other.parameter) <= SAME_PARAMETER * abs(one.parameter):
-        return False
-    if (one.orbit.period, one.orbit.symmetric) != (other.orbit.period, other.orbit.symmetric):
-        return False
-    first, second = _events(one._chain, one._row[:-1]), _events(other._chain, other._row[:-1])
-    return first.shape == second.shape and any(
-        _agree(first, second, half_turns, math.tau * one.orbit.period)
-        for half_turns in range(2 * one.orbit.period)
-    )
-
-
-def _events(chain: Chain, phases: np.ndarray) -> np.ndarray:
-    """Return phase, kind and side after each event of a whole period."""
-    events = np.stack([phases, chain.kinds, sides_of(chain)], axis=1)
-    if not chain.mirrored:
-        return events
-    later = events * [1.0, 1.0, -1.0] + [chain.turn, 0.0, 0.0]
-    return np.concatenate([events, later])
-
-
-def _agree(first: np.ndarray, second: np.ndarray, half_turns: int, whole: float) -> bool:
-    """Return whether the events of two orbits agree if the second begins some half turns later, mirrored if their number is odd."""
-    moved = second * [1.0, 1.0, (-1.0) ** half_turns] + [math.pi * half_turns, 0.0, 0.0]
-    apart = (moved[None, :, 0] - first[:, None, 0] + 0.5 * whole) % whole - 0.5 * whole
-    same = (np.abs(apart) <= SAME_PHASE) & (moved[None, :, 1:] == first[:, None, 1:]).all(axis=2)
-    return bool(same.any(axis=1).all() and same.any(axis=0).all())
-
-
-KINDS = {
-    Special.FOLD: "fold",
-    Special.SYMMETRY_BREAKING: "symmetry-breaking",
-    Special.PERIOD_DOUBLING: "period-doubling",
-    Special.GRAZING: "grazing",
-}
 ENDS = {
     End.RANGE: "end of the range",
-    End.GRAZED: "grazing",
+    End.GRAZED: GRAZING,
     End.MERGED: "merges with the branch from which it bifurcates",
     End.CLOSED: "closed loop",
     End.MANY: "maximum number of points",
@@ -495,10 +356,7 @@ ENDS = {
 def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tuple[str, str]) -> Branch:
     """Return the public value of a branch."""
     impacts, brace_hits = chain.counts()
-    passed = tuple(
-        special_of(one.chain, parameter, one.row, one.kind, one.place, _beside(joined.rows, one.place))
-        for one in special_points(chain, parameter, joined)
-    )
+    passed = special_points(chain, parameter, joined)
     return Branch(
         name=parameter,
         period=chain.period,
@@ -510,32 +368,4 @@ def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tu
         ends=ends,
         rows=ChainRows(chain, parameter, joined.rows, joined.facts),
         passed=passed,
-    )
-
-
-def _beside(rows: np.ndarray, index: int) -> float:
-    """Return the parameter of a point of a branch near a special point, but not at its end."""
-    return float(rows[min(max(index, 1), max(len(rows) - 2, 0)), -1])
-
-
-def special_of(
-    chain: Chain, parameter: str, row: np.ndarray, kind: Special, index: int, beside: float
-) -> SpecialPoint:
-    """Return a special point with its orbit; ``beside`` is the parameter of a point of its branch near it."""
-    touch, counts = None, chain.counts()
-    if kind == Special.GRAZING:
-        orbit, chain, row, touch = grazing_at(chain, parameter, row)
-    else:
-        *_, trace, determinant = equations(chain, parameter, row)
-        orbit = orbit_of(chain, parameter, row, trace, determinant)
-    return SpecialPoint(
-        kind=KINDS[kind],
-        parameter=float(row[-1]),
-        orbit=orbit,
-        name=parameter,
-        index=index,
-        chain=chain,
-        row=row.copy(),
-        touch=touch,
-        origin=Origin(counts, float(np.sign(beside - row[-1]))),
     )

@@ -14,10 +14,10 @@ from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.result import Result
 from rocking.model.text import counted, plus_minus
 from rocking.model.validation import Refusal, instance, whole
-from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import switch_branch
 from rocking.orbits.parameter import check_range
 from rocking.orbits.result_columns import of_cascade
+from rocking.orbits.special_points import PERIOD_DOUBLING, SpecialPoint
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -154,7 +154,7 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
     (10.73261, True)
     """
     instance("special", special, SpecialPoint)
-    if special.kind != "period-doubling":
+    if special.kind != PERIOD_DOUBLING:
         raise Refusal("special", "be a period doubling", special.kind)
     low, high = check_range(special.name, bounds)
     requested = whole("doublings", doublings, 2, 10)
@@ -165,7 +165,7 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
             following = [
                 one
                 for one in branch.special
-                if one.kind == "period-doubling" and one.orbit.period == branch.period
+                if one.kind == PERIOD_DOUBLING and one.orbit.period == branch.period
             ]
             if following:
                 break

@@ -15,6 +15,7 @@ from rocking.orbits import normal_form
 from rocking.orbits.curve_ends import degenerate_end, grazing_end, multiplier
 from rocking.orbits.curve_zeros import CurveRows, Test, along, find_brackets, locate_zero
 from rocking.orbits.event_chain import End, Special, equations, orbit_of
+from rocking.orbits.special_points import FOLD, GRAZING, doubling
 
 ROUNDED = 1e-11
 """Relative error below which a value is printed with ten digits, without the error."""
@@ -111,8 +112,8 @@ def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
             grazed = grazing_end(rows, inwards)
             # without a contact at the end, its place is not known
             if grazed is not None:
-                kind = "double-grazing" if _name(rows) == "grazing" else f"{_name(rows)}-grazing"
-                kind = kind if grazed.kind == "grazing" else grazed.kind
+                kind = "double-grazing" if _name(rows) == GRAZING else f"{_name(rows)}-grazing"
+                kind = kind if grazed.kind == GRAZING else grazed.kind
                 members.append(_point(grazed.rows, kind, grazed.row, grazed.errors, place))
         elif end == End.MERGED:
             merger = degenerate_end(rows, inwards)
@@ -124,23 +125,22 @@ def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
 def _name(rows: CurveRows) -> str:
     """Return the type of a curve."""
     if rows.condition.kind == Special.GRAZING:
-        return "grazing"
+        return GRAZING
     if rows.condition.kind == Special.FOLD:
-        return "fold"
-    return "symmetry-breaking" if rows.chain.mirrored else "period-doubling"
+        return FOLD
+    return doubling(rows.chain.mirrored)
 
 
 def _tests(rows: CurveRows) -> tuple[Test, ...]:
     """Return the test functions on a curve."""
     name = _name(rows)
-    if name == "fold":
+    if name == FOLD:
         return (Test("cusp", lambda of, at: normal_form.folds(of.chains(at))),)
-    if name != "grazing":
+    if name != GRAZING:
         return (Test(f"degenerate-{name}", lambda of, at: normal_form.doublings(of.chains(at))),)
-    doubling = "symmetry-breaking" if rows.chain.mirrored else "period-doubling"
     return (
-        Test("fold-grazing", lambda of, at: multiplier(of, at, -1.0)),
-        Test(f"{doubling}-grazing", lambda of, at: multiplier(of, at, 1.0)),
+        Test(f"{FOLD}-grazing", lambda of, at: multiplier(of, at, 1.0)),
+        Test(f"{doubling(rows.chain.mirrored)}-grazing", lambda of, at: multiplier(of, at, -1.0)),
     )
 
 

@@ -13,7 +13,7 @@ from rocking.model.orbit import Orbit
 from rocking.model.validation import Refusal, instance, one_of, refuse_if, whole
 from rocking.motion.simulate import simulate
 from rocking.orbits import resting_branch
-from rocking.orbits.branch import BRANCHES_OFF, ENDS, Branch, SpecialPoint, branch_of, chain_at
+from rocking.orbits.branch import BRANCHES_OFF, ENDS, Branch, branch_of
 from rocking.orbits.event_chain import (
     IMPACT,
     NAMES,
@@ -31,6 +31,7 @@ from rocking.orbits.event_chain import (
 from rocking.orbits.find_orbit import SAME, mirrored_half
 from rocking.orbits.parameter import check_range, check_step, value_of
 from rocking.orbits.return_map import branch_through
+from rocking.orbits.special_points import BEGINS_BRANCH, GRAZING, SYMMETRY_BREAKING, SpecialPoint, chain_at
 
 OFFS = (1e-4, 1e-3, 1e-5)
 """Distances of the first point from the grazing, in rad or units of the range, that are tried one after another."""
@@ -262,7 +263,7 @@ def switch_branch(
     (2, False, 23.185055)
     """
     instance("special", special, SpecialPoint)
-    if special.kind not in ("symmetry-breaking", "period-doubling", "grazing"):
+    if special.kind not in (*BEGINS_BRANCH, GRAZING):
         allowed = "be of kind symmetry-breaking, period-doubling or grazing to switch branches"
         raise Refusal("special", allowed, special.kind)
     chain_at(special)  # refuses a full block, and an orbit that rests
@@ -275,12 +276,12 @@ def switch_branch(
     )
     step = check_step(step)
     most = whole("max_points", max_points, 2, 1_000_000)
-    if special.kind == "grazing":
+    if special.kind == GRAZING:
         return _other_side(special, (low, high), step, most)
     chain, row = _twice(special)
     problem = problem_of(chain, [special.name], [(low, high)], step, [high - low])
     direction = np.append(null_direction(chain, special.name, row), 0.0)
-    senses = (1.0, -1.0) if special.kind == "symmetry-breaking" else (1.0,)
+    senses = (1.0, -1.0) if special.kind == SYMMETRY_BREAKING else (1.0,)
     branches = []
     for sense in senses:
         half = _follow(problem, _beside(problem, row, sense * direction), sense * direction, most)

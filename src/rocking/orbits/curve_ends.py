@@ -13,7 +13,14 @@ from rocking.orbits import grazing, normal_form
 from rocking.orbits.curve_zeros import Bracket, CurveRows, Test, locate_zero
 from rocking.orbits.event_chain import Chain, Condition, End, Special, equations
 from rocking.orbits.normal_form import Reduced
-from rocking.orbits.parent_branch import CONDITION, half_differences, parent_of
+from rocking.orbits.special_points import (
+    CONDITION,
+    GRAZING,
+    doubling,
+    half_differences,
+    multiplier_test,
+    parent_of,
+)
 
 LOST_WITHIN = 0.1
 """Largest distance of the halves of a chain, in rad, at the end of a curve that is lost because they become equal.
@@ -117,8 +124,9 @@ def degenerate_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     other = rows._replace(chain=parent, condition=CONDITION)
     chord = mean_halves(inwards[0], parent) - mean_halves(inwards[far], parent)
     start = other.corrected(mean_halves(inwards[far], parent), chord / np.linalg.norm(chord))
-    kind = "symmetry-breaking" if parent.mirrored else "period-doubling"
-    test = Test(f"degenerate-{kind}", lambda of, at: normal_form.doublings(of.chains(at)))
+    test = Test(
+        f"degenerate-{doubling(parent.mirrored)}", lambda of, at: normal_form.doublings(of.chains(at))
+    )
     reaches = [1.0 + reach * share for reach in REACHES]
     return None if start is None else zero_between(other, test, start, chord, reaches)
 
@@ -193,9 +201,9 @@ def _merged_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     if result is None:
         return None
     parent, touch, near = result
-    kind = "symmetry-breaking" if parent.mirrored else "period-doubling"
     other = rows._replace(chain=parent, condition=touch, local=True)
-    return _around(other, Test(f"{kind}-grazing", lambda of, at: multiplier(of, at, 1.0)), near)
+    test = Test(f"{doubling(parent.mirrored)}-grazing", lambda of, at: multiplier(of, at, -1.0))
+    return _around(other, test, near)
 
 
 def _half_of(chain: Chain, touch: Condition, row: np.ndarray) -> tuple[Chain, Condition, np.ndarray] | None:
@@ -295,7 +303,7 @@ def _without(own: Condition, chain: Chain, kept: Chain) -> Condition:
 def _touches(rows: CurveRows, contact: Condition) -> Test:
     """Return the test function that is the clearance of a turning point."""
     later = contact._replace(arc=(contact.arc - 1) % len(rows.chain.kinds))
-    return Test("grazing", _clearance_of(contact), _clearance_of(later))
+    return Test(GRAZING, _clearance_of(contact), _clearance_of(later))
 
 
 def _contacts(rows: CurveRows, row: np.ndarray) -> list[Condition]:
@@ -322,13 +330,13 @@ def _clearance_of(contact: Condition) -> Callable[[CurveRows, np.ndarray], Reduc
     return values
 
 
-def multiplier(rows: CurveRows, at: np.ndarray, sign: float) -> Reduced:
-    """Return 1 ± trace + determinant, which vanishes where a multiplier is −1 or 1."""
+def multiplier(rows: CurveRows, at: np.ndarray, value: float) -> Reduced:
+    """Return the test function that vanishes where a multiplier is 1, or −1."""
     values = []
     for row in at:
         chain = rows.chain_at(row)
         *_, trace, determinant = equations(chain, rows.names[1], np.append(chain.phases, row[-1]))
-        values.append(1.0 + sign * trace + determinant)
+        values.append(multiplier_test(trace, determinant, value))
     return Reduced(np.array(values), np.ones((len(at), 1)))
 
 

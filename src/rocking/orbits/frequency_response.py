@@ -31,6 +31,7 @@ from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
 from rocking.orbits.parameter import check_range, check_step, coordinate_of, different_values, with_value
+from rocking.orbits.special_points import SYMMETRY_BREAKING
 from rocking.response.classify import classify
 from rocking.theory import symmetric_modes
 
@@ -391,7 +392,7 @@ def _born(branch: Branch, bounds: tuple[float, float], step: float) -> list[Bran
             for other in one.special
             if other.kind == special.kind
         ]
-        if special.kind == "symmetry-breaking" and not any(met):
+        if special.kind == SYMMETRY_BREAKING and not any(met):
             born.append(switch_branch(special, bounds, step)[0])
     return [one for one in born if len(one) > 1]
 

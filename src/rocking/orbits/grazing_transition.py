@@ -22,11 +22,11 @@ from rocking.model.text import plus_minus
 from rocking.model.validation import Refusal, instance, reals, within
 from rocking.model.verdict import Kind, Verdict
 from rocking.motion.simulate import simulate
-from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.continuation import MEETS, PERSISTS, switch_branch
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.parameter import ALLOWED, with_value
 from rocking.orbits.result_columns import of_transition
+from rocking.orbits.special_points import GRAZING, SpecialPoint, chain_at
 from rocking.response.classify import budget, classify
 
 if TYPE_CHECKING:
@@ -215,7 +215,7 @@ def grazing_transition(
     ('persistence', 'local', 'chaotic')
     """
     instance("special", special, SpecialPoint)
-    if special.kind != "grazing":
+    if special.kind != GRAZING:
         raise Refusal("special", "be a grazing", special.kind)
     chain_at(special)  # refuses a full block, and an orbit that rests
     ordered = np.unique(reals("distances", distances))[::-1]

@@ -24,10 +24,11 @@ from rocking.model.validation import Refusal
 from rocking.model.verdict import Kind
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
-from rocking.orbits.branch import ENDS, POINT, Branch, HalfBranch, SpecialPoint, joined
+from rocking.orbits.branch import ENDS, POINT, Branch, HalfBranch, joined
 from rocking.orbits.event_chain import End, clocked
 from rocking.orbits.find_orbit import SAME, orbit_from
 from rocking.orbits.parameter import value_of, with_value
+from rocking.orbits.special_points import GRAZING, SpecialPoint
 from rocking.response.classify import classify
 
 NARROW = 1e-13
@@ -242,7 +243,7 @@ def _kind(last: RestingMotion, there: RestingMotion) -> str | None:
     if min(last.shortest, there.shortest) < SLIGHT:
         return SHRUNK
     if min(last.slowest, there.slowest) < SLIGHT:
-        return ENDS[End.GRAZED]
+        return GRAZING
     return None
 
 

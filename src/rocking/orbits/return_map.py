@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -16,10 +15,11 @@ from rocking.model.verdict import Outcome
 from rocking.motion.march_loop import monodromy
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
-from rocking.orbits.branch import ENDS, POINT, Branch, HalfBranch, SpecialPoint, joined
+from rocking.orbits.branch import ENDS, POINT, Branch, HalfBranch, joined
 from rocking.orbits.event_chain import End, clocked, multipliers_of, quiet_phase
 from rocking.orbits.find_orbit import RESTING, orbit_from
 from rocking.orbits.parameter import value_of, with_value
+from rocking.orbits.special_points import SpecialPoint, special_points_between
 
 CONVERGED = 1e-11
 """Distance of a state from its image after a period at which Newton's method ends."""
@@ -143,7 +143,12 @@ class ReturnMap:
         return float(np.hypot(*(point.unknowns[:2] - self._half_later(point.phase, point.unknowns))))
 
     def parent(self, point: Point) -> Point | None:
-        """Return the orbit that repeats, or mirrors itself, after half the period, at the parameter of an orbit near it."""
+        """Return the orbit that repeats, or mirrors itself, after half the period, at the parameter of a point near it.
+
+        None if the point is not near it, or if all orbits of the branch mirror themselves.
+        """
+        if self.symmetric or not self.asymmetry(point) < np.sqrt(SYMMETRIC):
+            return None
         odd = self.period % 2 == 1
         way = evolve(self, symmetric=odd, period=self.period if odd else self.period // 2)
         state = 0.5 * (point.unknowns[:2] + self._half_later(point.phase, point.unknowns))
@@ -253,9 +258,6 @@ def multipliers(point: Point) -> tuple[complex, complex]:
 SMALLEST = 1e-4
 """Smallest step, in units of the largest."""
 GROWTH = 1.5
-NARROW = 1e-12
-"""Width of a bracket of a special point at which the search ends, in units of the step."""
-MAX_HALVINGS = 60
 ALONG = np.array([0.0, 0.0, 1.0])
 SAME_TRACE = 1e-2
 
@@ -356,55 +358,6 @@ def closes(way: ReturnMap, first: Point, there: Point, step: float) -> bool:
     if abs(there.unknowns[2] - first.unknowns[2]) > 0.5 * step or abs(there.trace - first.trace) > SAME_TRACE:
         return False
     return bool(np.abs(way.state(there, first.phase) - first.unknowns[:2]).max() < 0.5 * step)
-
-
-def special_points_between(way: ReturnMap, here: Point, there: Point) -> list[tuple[str, Point]]:
-    """Return the special points between two neighbouring points, where a test function changes its sign."""
-    chord = there.unknowns - here.unknowns
-    turns = crossing(way, here, there, lambda point: float(point.tangent[2] * np.sign(point.tangent @ chord)))
-    meets = crossing(way, here, there, lambda point: 1.0 - point.trace + point.determinant)
-    doubles = crossing(way, here, there, lambda point: 1.0 + point.trace + point.determinant)
-    rows: list[tuple[str, Point]] = []
-    if turns is not None:
-        rows.append(turn(way, turns))
-    elif meets is not None and way.symmetric:
-        rows.append(("symmetry-breaking", meets))
-    if doubles is not None:
-        rows.append(("period-doubling", doubles))
-    return rows
-
-
-def turn(way: ReturnMap, point: Point) -> tuple[str, Point]:
-    """Return a point at which a branch turns, with its kind: it may lie on the branch from which this one bifurcates."""
-    if not way.symmetric and way.asymmetry(point) < np.sqrt(SYMMETRIC):
-        parent = way.parent(point)
-        if parent is not None:
-            return ("symmetry-breaking" if way.period % 2 == 1 else "period-doubling"), parent
-    return "fold", point
-
-
-def crossing(way: ReturnMap, here: Point, there: Point, test: Callable[[Point], float]) -> Point | None:
-    """Return the point between two others where a test function changes its sign, by regula falsi; None if it does not."""
-    chord, low, high = there.unknowns - here.unknowns, 0.0, 1.0
-    first, last = test(here), test(there)
-    if first * last >= 0.0:
-        return None
-    result, nearest = there, there
-    for _ in range(MAX_HALVINGS):
-        # never at an end of the bracket, so that it always shrinks
-        share = min(max(first / (first - last), 0.05), 0.95)
-        middle = low + share * (high - low)
-        point = way.corrected(here.phase, here.unknowns + middle * chord, chord)
-        if point is None:
-            break
-        nearest, now = point, test(point)
-        if now * first > 0.0:
-            low, first = middle, now
-        else:
-            high, last, result = middle, now, point
-        if high - low < NARROW or now == 0.0:
-            break
-    return nearest if abs(test(nearest)) <= abs(test(result)) else result
 
 
 def table(way: ReturnMap, points: tuple[Point, ...]) -> np.ndarray:

@@ -17,6 +17,7 @@ from rocking.orbits.branch import BRANCHES_OFF, Branch
 from rocking.orbits.cascade import Cascade
 from rocking.orbits.find_orbits import Orbits
 from rocking.orbits.frequency_response import FrequencyResponse
+from rocking.orbits.special_points import FOLD, GRAZING, PERIOD_DOUBLING, SYMMETRY_BREAKING
 from rocking.plot import palette, style
 from rocking.plot.axes import Units, parameter, units_of
 from rocking.plot.palette import COLOURS
@@ -65,7 +66,7 @@ def branch_line(branch: Branch, quantity: str, phase: float) -> Line:
     else:
         own = points["peak"] if quantity == "peak" else np.abs(points["multipliers"]).max(axis=1)
         heights = own[:, None]
-    inner = [one for one in branch._passages if one.kind != "grazing" and 0 < one.index < len(values)]
+    inner = [one for one in branch._passages if one.kind != GRAZING and 0 < one.index < len(values)]
     places = np.array([one.index for one in inner], int)
     added = np.array([one.parameter for one in inner], float)
     start, span = values[places - 1], values[places] - values[places - 1]
@@ -136,10 +137,10 @@ def several(result: Any, kind: type[Drawn]) -> list[Drawn]:
 
 # Type of special point: marker, whether it is filled, name.
 MARKERS = {
-    "fold": ("o", False, "fold"),
-    "symmetry-breaking": ("s", True, "symmetry breaking"),
-    "period-doubling": ("^", True, "period doubling"),
-    "grazing": ("x", False, "grazing"),
+    FOLD: ("o", False, "fold"),
+    SYMMETRY_BREAKING: ("s", True, "symmetry breaking"),
+    PERIOD_DOUBLING: ("^", True, "period doubling"),
+    GRAZING: ("x", False, "grazing"),
 }
 COLOURS_BY_SYMMETRY = {True: style.MOTION, False: style.IMPACT}
 

@@ -13,6 +13,7 @@ from rocking.model.validation import Refusal, instance, refuse_if
 from rocking.orbits.bifurcation_curve import BifurcationCurve
 from rocking.orbits.bifurcation_set import BifurcationSet
 from rocking.orbits.grazing_transition import GrazingTransition
+from rocking.orbits.special_points import FOLD, GRAZING, PERIOD_DOUBLING, SYMMETRY_BREAKING
 from rocking.plot import palette, style
 from rocking.plot.axes import parameter
 from rocking.plot.branch_lines import several, unless_there
@@ -50,10 +51,10 @@ def mark(
 
 
 LOOKS: dict[str, tuple[str, Any]] = {
-    "fold": (palette.FOLD, "-"),
-    "symmetry-breaking": (palette.SYMMETRY_BREAKING, (0, (5, 2))),
-    "period-doubling": (palette.PERIOD_DOUBLING, (0, (6, 2, 1, 2))),
-    "grazing": (style.INK, (0, (1, 1.5))),
+    FOLD: (palette.FOLD, "-"),
+    SYMMETRY_BREAKING: (palette.SYMMETRY_BREAKING, (0, (5, 2))),
+    PERIOD_DOUBLING: (palette.PERIOD_DOUBLING, (0, (6, 2, 1, 2))),
+    GRAZING: (style.INK, (0, (1, 1.5))),
 }
 
 
