@@ -21,14 +21,14 @@ from rocking.cli.reports import (
     warning_lines,
 )
 from rocking.cli.reports_motion import validity_lines, validity_motion, validity_record
+from rocking.model.arrays import nan_if_none
 from rocking.model.block import Block
-from rocking.model.orbit import Mode
+from rocking.model.orbit import Mode, multiplier_columns
 from rocking.model.proof import Proof
 from rocking.model.result import Result, along, described
 from rocking.model.system import System, quantities
 from rocking.model.text import counted, plus_minus
 from rocking.model.verdict import Verdict
-from rocking.orbits.result_columns import multipliers
 from rocking.response.lyapunov import dimension_of
 
 if TYPE_CHECKING:
@@ -186,8 +186,8 @@ class Modes(Result):
             "velocity": ([each.velocity for each in modes], "speed after the impact"),
             "phase": ([each.phase for each in modes], "forcing phase at the impact", "rad"),
             "trace": ([each.trace for each in modes], "trace of the half-cycle map"),
-            **multipliers(np.array([each.multipliers for each in modes], complex).reshape(-1, 2)),
-            "peak": ([math.nan if each.peak is None else each.peak for each in modes], "largest angle"),
+            **multiplier_columns(np.array([each.multipliers for each in modes], complex).reshape(-1, 2)),
+            "peak": (nan_if_none(each.peak for each in modes), "largest angle"),
             "stability": (np.array([str(each.stability) for each in modes], str), "stability"),
             "admissible": (
                 np.array([each.admissible for each in modes], bool),

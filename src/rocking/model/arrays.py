@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import partial
 from typing import Any
 
@@ -17,6 +18,11 @@ def read_only(array: np.ndarray) -> np.ndarray:
         raise WrongType("an array of a result", "be a NumPy array", array)
     array.flags.writeable = False
     return array
+
+
+def nan_if_none(values: Iterable[float | None]) -> np.ndarray:
+    """Return numbers as an array, NaN where there is none."""
+    return np.array([np.nan if value is None else value for value in values], float)
 
 
 class ReadOnlyArrays:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import StrEnum
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.model.forcing import Harmonic
@@ -190,6 +191,31 @@ def start_of(orbit: Orbit) -> dict[str, float]:
     """Return the state of an orbit at τ = 0 by name."""
     start = orbit.start
     return {"start_angle": start.angle, "start_velocity": start.velocity}
+
+
+def orbit_columns(
+    orbits: Sequence[Orbit], prefix: str = "", *, start: bool = False
+) -> dict[str, tuple[Any, ...]]:
+    """Return columns of facts on orbits, at τ = 0 only with `start`; -1 stands for infinitely many impacts."""
+    rows = [facts_of(each) | (start_of(each) if start else {}) for each in orbits]
+    return {
+        f"{prefix}{name}": (
+            np.array([-1 if row[name] is None else row[name] for row in rows], kind),
+            text,
+            unit,
+        )
+        for name, (text, unit, kind) in ORBIT_TEXTS.items()
+        if start or not name.startswith("start_")
+    }
+
+
+def multiplier_columns(values: np.ndarray) -> dict[str, tuple[np.ndarray, str]]:
+    """Return Floquet multipliers, shape (n, 2), as columns of real and imaginary parts: netCDF has no complex numbers."""
+    return {
+        f"multiplier_{number}_{part}": (getattr(column, part), f"Floquet multiplier {number}, {text}")
+        for number, column in enumerate(values.T, 1)
+        for part, text in (("real", "real part"), ("imag", "imaginary part"))
+    }
 
 
 @frozen

@@ -12,16 +12,20 @@ from numpy.typing import NDArray
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
 from rocking.model.arrays import ReadOnlyArrays, read_only
-from rocking.model.result import Result
+from rocking.model.result import Result, along, described
 from rocking.model.validation import Refusal, instance, one_of, pair, whole
 from rocking.orbits.branch import ENDS
-from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of
+from rocking.orbits.codimension_two import (
+    CodimensionTwoPoint,
+    codimension_two_columns,
+    coefficients_of,
+    points_of,
+)
 from rocking.orbits.curve_ends import until_parent
 from rocking.orbits.curve_zeros import CurveRows
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.grazing import touches_again
-from rocking.orbits.parameter import check_range, check_step, value_of
-from rocking.orbits.result_columns import of_curve
+from rocking.orbits.parameter import check_range, check_step, fixed_quantities, plane, value_of
 from rocking.orbits.special_points import FOLD, GRAZING, SpecialPoint, chain_at
 
 if TYPE_CHECKING:
@@ -104,7 +108,20 @@ class BifurcationCurve(ReadOnlyArrays, Result):
         return self._rows.chain.system.block
 
     def _data(self) -> xr.Dataset:
-        return of_curve(self)
+        import xarray as xr
+
+        coefficient = self.coefficients, "coefficient of the normal form of the return map"
+        attributes = described("Bifurcation curve") | {
+            **fixed_quantities(self._rows.chain.system, *self.names),
+            "kind": self.kind,
+            "orbit_period": self.period,
+            "impacts_per_period": self.impacts,
+            "ends": list(self.ends),
+        }
+        variables = along("point", {"coefficient": coefficient}) | along(
+            "special", codimension_two_columns(self.names, self.special)
+        )
+        return xr.Dataset(variables, plane(self.names, self.points), attributes)
 
     def __str__(self) -> str:
         (low, lower), (high, higher) = self.points.min(axis=0), self.points.max(axis=0)

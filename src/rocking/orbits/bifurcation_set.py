@@ -10,17 +10,17 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model.progress import Bar
-from rocking.model.result import Result
+from rocking.model.result import Result, along, described
 from rocking.model.system import System
 from rocking.model.text import counted
 from rocking.model.validation import WrongType, instance, one_of, whole
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.branch import Branch
+from rocking.orbits.codimension_two import codimension_two_columns
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import NAMES
 from rocking.orbits.find_orbits import find_orbits
-from rocking.orbits.parameter import check_range, check_step, value_of, with_value
-from rocking.orbits.result_columns import of_curves
+from rocking.orbits.parameter import check_range, check_step, fixed_quantities, plane, value_of, with_value
 from rocking.orbits.special_points import BEGINS_BRANCH, PERIOD_DOUBLING, SpecialPoint
 
 if TYPE_CHECKING:
@@ -70,7 +70,36 @@ class BifurcationSet(Result):
     not_followed: int
 
     def _data(self) -> xr.Dataset:
-        return of_curves(self)
+        import xarray as xr
+
+        curves = self.curves
+        points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in curves)])
+        special = codimension_two_columns(self.names, [one for curve in curves for one in curve.special])
+        of_special, of_point = (
+            np.repeat(np.arange(len(curves)), [len(each) for each in lists])
+            for lists in ([curve.special for curve in curves], [curve.points for curve in curves])
+        )
+        special["special_curve"] = of_special, "number of the curve of the special point"
+        of_curve = {
+            "curve_kind": (np.array([curve.kind for curve in curves], "U17"), "type of the special points"),
+            "curve_orbit_period": (
+                np.array([curve.period for curve in curves], int),
+                "forcing cycles per response period",
+            ),
+            "curve_impacts_per_period": (
+                np.array([curve.impacts for curve in curves], int),
+                "impacts per response period",
+            ),
+        }
+        attributes = described("Bifurcation set") | {
+            **fixed_quantities(self.system, *self.names),
+            "max_period": self.max_period,
+            "not_followed": self.not_followed,
+        }
+        variables = along("point", {"curve_number": (of_point, "number of the curve")}) | along(
+            "curve", of_curve
+        )
+        return xr.Dataset(variables | along("special", special), plane(self.names, points), attributes)
 
     def __str__(self) -> str:
         counts = Counter(curve.kind for curve in self.curves)

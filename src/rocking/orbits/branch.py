@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model.arrays import ReadOnlyArrays, read_only
-from rocking.model.orbit import Orbit, Stability, stability_of
+from rocking.model.orbit import Orbit, Stability, multiplier_columns, orbit_columns, stability_of
 from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
-from rocking.model.result import Result
+from rocking.model.result import Result, along, described
 from rocking.model.system import System
 from rocking.model.validation import WrongType, whole, within
 from rocking.orbits.event_chain import Chain, End, multipliers_of, orbit_of, solved, states
-from rocking.orbits.result_columns import of_branch
+from rocking.orbits.parameter import column_of, coordinate_of, fixed_quantities
 from rocking.orbits.special_points import GRAZING, SpecialPoint, distinct, special_points
 
 if TYPE_CHECKING:
@@ -298,7 +298,38 @@ class Branch(ReadOnlyArrays, Result):
         return self._middle.block
 
     def _data(self) -> xr.Dataset:
-        return of_branch(self)
+        import xarray as xr
+
+        points, special, name = self.points, self.special, self.name
+        of_points = {
+            "event_phase": (points["phase"], "forcing phase of the first event", "rad"),
+            "event_velocity": (points["velocity"], "speed just after the first event"),
+            "peak": (points["peak"], "largest magnitude of the angle of the orbit"),
+            "stability": (points["stability"].astype(str), "stability of the orbit"),
+            **multiplier_columns(points["multipliers"]),
+        }
+        of_special = {
+            "special_kind": (np.array([one.kind for one in special], "U17"), "type of the special point"),
+            f"special_{name}": column_of(name, [one.parameter for one in special]),
+            **orbit_columns([one.orbit for one in special], "special_"),
+        }
+        of_ends = {
+            "end_reason": (list(self.ends), "reason why the branch ends"),
+            f"end_{name}": column_of(name, points["parameter"][[0, -1]]),
+        }
+        attributes = described("Branch of periodic orbits") | {
+            **fixed_quantities(self._middle, name),
+            "parameter": name,
+            "orbit_period": self.period,
+            "symmetric": self.symmetric,
+            "impacts_per_period": self.impacts,
+            "brace_hits_per_period": self.brace_hits,
+            "points": len(self),
+            "stable_points": int(points["stable"].sum()),
+            "peak": float(np.nanmax(points["peak"])),
+        }
+        variables = along("point", of_points) | along("special", of_special) | along("end", of_ends)
+        return xr.Dataset(variables, {name: coordinate_of("point", name, points["parameter"])}, attributes)
 
     def __str__(self) -> str:
         name, of, unit = SYSTEM_QUANTITIES[self.name].printed(self.block)

@@ -10,13 +10,13 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.orbit import orbit_columns
 from rocking.model.quantity import SYSTEM_QUANTITIES
-from rocking.model.result import Result
+from rocking.model.result import Result, along, described
 from rocking.model.text import counted, plus_minus
 from rocking.model.validation import Refusal, instance, whole
 from rocking.orbits.continuation import switch_branch
-from rocking.orbits.parameter import check_range
-from rocking.orbits.result_columns import of_cascade
+from rocking.orbits.parameter import check_range, coordinate_of, fixed_quantities
 from rocking.orbits.special_points import PERIOD_DOUBLING, SpecialPoint
 
 if TYPE_CHECKING:
@@ -93,7 +93,23 @@ class Cascade(ReadOnlyArrays, Result):
         return self.special[0].orbit.system.block
 
     def _data(self) -> xr.Dataset:
-        return of_cascade(self)
+        import xarray as xr
+
+        first = self.special[0]
+        ratios = np.full(len(self.special), np.nan)
+        ratios[1:-1] = self.ratios
+        accumulation, error = self.accumulation
+        ratio = ratios, "distance to the previous period doubling over that to the next"
+        attributes = described("Cascade of period doublings") | {
+            **fixed_quantities(first.orbit.system, first.name),
+            "parameter": first.name,
+            f"accumulation_{first.name}": accumulation,
+            f"accumulation_{first.name}_error": error,
+            "end": self.end,
+        }
+        variables = along("doubling", {"ratio": ratio, **orbit_columns([one.orbit for one in self.special])})
+        coordinate = coordinate_of("doubling", first.name, self.values)
+        return xr.Dataset(variables, {first.name: coordinate}, attributes)
 
     def _repr_html_(self) -> str | None:
         return super()._repr_html_() if len(self.special) > 1 else None

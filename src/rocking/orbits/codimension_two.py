@@ -6,6 +6,9 @@ the cubic coefficient (Kuznetsov 2004, Elements of Applied Bifurcation Theory, c
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 from attrs import field, frozen
 
@@ -15,6 +18,7 @@ from rocking.orbits import normal_form
 from rocking.orbits.curve_ends import degenerate_end, grazing_end, multiplier
 from rocking.orbits.curve_zeros import CurveRows, Test, along, find_brackets, locate_zero
 from rocking.orbits.event_chain import End, Special, equations, orbit_of
+from rocking.orbits.parameter import column_of
 from rocking.orbits.special_points import FOLD, GRAZING, doubling
 
 ROUNDED = 1e-11
@@ -81,6 +85,23 @@ class CodimensionTwoPoint:
             for name, value, error in zip(self.names, self.values, self.errors, strict=True)
         )
         return f"{self.kind} at {place}: {self.orbit}"
+
+
+def codimension_two_columns(
+    names: tuple[str, str], points: Sequence[CodimensionTwoPoint]
+) -> dict[str, tuple[Any, ...]]:
+    """Return columns of points of codimension two."""
+    columns: dict[str, tuple[Any, ...]] = {
+        "special_kind": (
+            np.array([one.kind for one in points], "U28"),
+            "type of the point of codimension two",
+        )
+    }
+    for place, name in enumerate(names):
+        columns[f"special_{name}"] = column_of(name, [one.values[place] for one in points])
+        errors = np.array([one.errors[place] for one in points], float)
+        columns[f"special_{name}_error"] = errors, f"error of the {name}"
+    return columns
 
 
 def coefficients_of(rows: CurveRows) -> np.ndarray:

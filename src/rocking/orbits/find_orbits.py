@@ -12,14 +12,13 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.kernels.classify import attractor_anchor
-from rocking.model.orbit import Orbit, Stability
-from rocking.model.result import Result
-from rocking.model.system import State, System
+from rocking.model.orbit import Orbit, Stability, orbit_columns
+from rocking.model.result import Result, along, described
+from rocking.model.system import State, System, quantities
 from rocking.model.text import counted
 from rocking.model.validation import instance, pair, refuse_if, whole, within
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts, orbit_from
-from rocking.orbits.result_columns import of_orbits
 from rocking.orbits.saddle_manifolds import response
 from rocking.proof.prove import check_provable
 from rocking.proof.prove import prove as proved
@@ -186,7 +185,23 @@ class Orbits(Sequence[Orbit], Result):
         return len(self.orbits)
 
     def _data(self) -> xr.Dataset:
-        return of_orbits(self)
+        import xarray as xr
+
+        columns = {
+            **orbit_columns(self, start=True),
+            "hits": (np.array(self.hits, int), "initial guesses that led to the orbit"),
+            "proved": (
+                np.array([one.proof is not None and one.proof.proved for one in self], bool),
+                "whether the orbit is proved",
+            ),
+        }
+        attributes = described("Periodic orbits") | {
+            **quantities(self.system),
+            "max_period": self.max_period,
+            "starts": self.starts,
+            "settled": self.settled,
+        }
+        return xr.Dataset(along("orbit", columns), attrs=attributes)
 
     def __str__(self) -> str:
         if not len(self):

@@ -12,7 +12,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.arrays import ReadOnlyArrays, nan_if_none, read_only
 from rocking.model.orbit import Mode, Orbit
 from rocking.model.progress import Bar
 from rocking.model.result import Result, along, described
@@ -416,7 +416,5 @@ def _from_rest(systems: Sequence[System], max_cycles: int, bar: Bar) -> NDArray[
     rest["kind"] = [Kind(verdict.kind).value for verdict in verdicts]
     rest["period"] = [verdict.period or 0 for verdict in verdicts]
     rest["peak"] = [verdict.peak for verdict in verdicts]
-    rest["steady_peak"] = [
-        math.nan if verdict.steady_peak is None else verdict.steady_peak for verdict in verdicts
-    ]
+    rest["steady_peak"] = nan_if_none(verdict.steady_peak for verdict in verdicts)
     return rest

@@ -14,9 +14,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.arrays import ReadOnlyArrays, nan_if_none, read_only
 from rocking.model.orbit import Orbit
-from rocking.model.result import Result
+from rocking.model.result import Result, along, described
 from rocking.model.system import State
 from rocking.model.text import plus_minus
 from rocking.model.validation import Refusal, instance, reals, within
@@ -24,8 +24,7 @@ from rocking.model.verdict import Kind, Verdict
 from rocking.motion.simulate import simulate
 from rocking.orbits.continuation import MEETS, PERSISTS, switch_branch
 from rocking.orbits.event_chain import clocked
-from rocking.orbits.parameter import ALLOWED, with_value
-from rocking.orbits.result_columns import of_transition
+from rocking.orbits.parameter import ALLOWED, coordinate_of, fixed_quantities, kinds_of, with_value
 from rocking.orbits.special_points import GRAZING, SpecialPoint, chain_at
 from rocking.response.classify import budget, classify
 
@@ -140,7 +139,40 @@ class GrazingTransition(ReadOnlyArrays, Result):
         return self.special.orbit.system.block
 
     def _data(self) -> xr.Dataset:
-        return of_transition(self)
+        import xarray as xr
+
+        special, verdicts = self.special, self.verdicts
+        name = special.name
+        order, order_error = self.order
+        columns = {
+            "distance": (self.distances, "relative distance of the parameter from the grazing"),
+            "orbit_period": (
+                [one.period or 0 for one in verdicts],
+                "forcing cycles per response period; 0 if not periodic",
+            ),
+            "exponent": (
+                nan_if_none(one.exponent for one in verdicts),
+                "largest Lyapunov exponent per tau",
+            ),
+            "exponent_error": (
+                nan_if_none(one.exponent_error for one in verdicts),
+                "error of the largest Lyapunov exponent per tau",
+            ),
+            "nearest": (self.nearest, "smallest distance of the attractor from the grazing orbit"),
+            "farthest": (self.farthest, "largest distance of the attractor from the grazing orbit"),
+        }
+        kinds = kinds_of(name, [str(one.kind) for one in verdicts], "type of the response")
+        attributes = described("Transition at a grazing") | {
+            **fixed_quantities(special.orbit.system, name),
+            f"grazing_{name}": special.parameter,
+            "orbits": self.orbits,
+            "transition": self.kind,
+            "order": order,
+            "order_error": order_error,
+            "section_phase": special.orbit.phase,
+        }
+        coordinate = coordinate_of(name, name, self.values)
+        return xr.Dataset(along(name, columns) | {"kind": kinds}, {name: coordinate}, attributes)
 
     def _repr_html_(self) -> str | None:
         return super()._repr_html_() if np.isfinite(self.farthest).any() else None

@@ -15,18 +15,18 @@ from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.orbit import Orbit
 from rocking.model.quantity import PHASE
-from rocking.model.result import Result
-from rocking.model.system import State
+from rocking.model.result import Result, along, described
+from rocking.model.system import State, quantities
 from rocking.model.validation import Refusal, instance, within
 from rocking.motion.march_loop import monodromy
 from rocking.orbits.event_chain import clocked
-from rocking.orbits.result_columns import of_manifolds
 from rocking.orbits.saddle_manifolds import (
     MAX_POINTS,
     SPACINGS,
     Manifold,
     check_reversible,
     grow,
+    manifold_columns,
     parameters,
     pieces,
     region,
@@ -92,7 +92,28 @@ class OrbitManifolds(ReadOnlyArrays, Result):
         return self.orbit.system.block
 
     def _data(self) -> xr.Dataset:
-        return of_manifolds(self)
+        import xarray as xr
+
+        curves = (*self.unstable, *self.stable)
+        # Two halves at each point of the orbit, one after another, first of the unstable manifold.
+        starts = np.arange(len(curves)) // 2 % len(self.points)
+        orbit = {
+            "orbit_angle": (self.points[:, 0], "angle of the orbit"),
+            "orbit_velocity": (self.points[:, 1], "angular velocity of the orbit"),
+        }
+        begins = starts, "number of the point of the orbit where the curve begins"
+        variables = {
+            **manifold_columns(curves, "from or to a distance of 1e-6 from the orbit"),
+            **along("curve", {"curve_orbit_point": begins}),
+            **along("orbit_point", orbit),
+        }
+        attributes = described("Manifolds of a periodic orbit") | {
+            **quantities(self.orbit.system),
+            "orbit_period": self.orbit.period,
+            "section_phase": self.phase,
+            "wanted_length": self.wanted,
+        }
+        return xr.Dataset(variables, attrs=attributes)
 
     def __str__(self) -> str:
         curves = (*self.unstable, *self.stable)

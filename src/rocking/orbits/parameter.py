@@ -110,3 +110,13 @@ def kinds_of(along: str, kinds: Iterable[str], text: str) -> tuple[str, Any, dic
     names = [kind.value for kind in Kind]
     flags = {"flag_values": list(range(len(names))), "flag_meanings": " ".join(names)}
     return along, np.array([names.index(kind) for kind in kinds], np.uint8), {"long_name": text} | flags
+
+
+def plane(names: tuple[str, str], points: np.ndarray) -> dict[str, Any]:
+    """Return the values of two parameters, shape (n, 2), as coordinates along `point`."""
+    return {name: coordinate_of("point", name, values) for name, values in zip(names, points.T, strict=True)}
+
+
+def column_of(name: str, values: Any) -> tuple[np.ndarray, dict[str, str]]:
+    """Return values of a parameter of a system as a column."""
+    return np.array(values, float), SYSTEM_QUANTITIES[name].attributes

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
@@ -10,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.arrays import ReadOnlyArrays, nan_if_none, read_only
 from rocking.model.progress import Bar
 from rocking.model.quantity import SYSTEM_QUANTITIES
 from rocking.model.result import Result, along, described
@@ -98,12 +97,12 @@ class ResponseDiagram(ReadOnlyArrays, Result):
     @property
     def exponent(self) -> NDArray[np.float64]:
         """Largest Lyapunov exponents per τ, shape (n,), as in `Verdict`; NaN if it is not known."""
-        return _numbers([verdict.exponent for verdict in self.verdicts])
+        return read_only(nan_if_none(verdict.exponent for verdict in self.verdicts))
 
     @property
     def exponent_error(self) -> NDArray[np.float64]:
         """Standard errors of the exponents per τ, shape (n,); 0 if multipliers give the exponent, NaN without an error."""
-        return _numbers([verdict.exponent_error for verdict in self.verdicts])
+        return read_only(nan_if_none(verdict.exponent_error for verdict in self.verdicts))
 
     @property
     def evidence(self) -> tuple[str, ...]:
@@ -157,10 +156,6 @@ class ResponseDiagram(ReadOnlyArrays, Result):
     def _periods(self) -> str:
         values = np.unique(self.period[self.period > 0]).tolist()
         return f" (period{'s' * (len(values) > 1)} {', '.join(map(str, values))})"
-
-
-def _numbers(values: list[float | None]) -> NDArray[np.float64]:
-    return read_only(np.array([math.nan if number is None else number for number in values]))
 
 
 MAX_VALUES = 100_000

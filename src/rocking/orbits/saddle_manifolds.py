@@ -6,7 +6,7 @@ A manifold grows on a section: points are added until neighbours are close (Hobs
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -19,12 +19,11 @@ from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.orbit import OrbitEvent
 from rocking.model.quantity import PHASE
-from rocking.model.result import Result
-from rocking.model.system import State, System
+from rocking.model.result import Result, along, described
+from rocking.model.system import State, System, quantities
 from rocking.model.validation import Refusal, TooManyEvents, instance, refuse_if, whole, within
 from rocking.motion.march_loop import start_march
 from rocking.orbits.parameter import with_value
-from rocking.orbits.result_columns import of_saddles
 from rocking.theory import saddle_orbit
 
 if TYPE_CHECKING:
@@ -219,6 +218,24 @@ class Manifold(ReadOnlyArrays):
         return float(np.nansum(np.hypot(*np.diff(self.points, axis=0).T)))
 
 
+def manifold_columns(curves: Sequence[Manifold], since: str) -> dict[str, Any]:
+    """Return the points of manifolds along `point`, and their properties along `curve`."""
+    points = np.concatenate([one.points for one in curves])
+    numbers = np.repeat(np.arange(len(curves)), [len(one.points) for one in curves])
+    of_points = {
+        "angle": (points[:, 0], "angle"),
+        "velocity": (points[:, 1], "angular velocity"),
+        "time": (np.concatenate([one.times for one in curves]), f"time {since}"),
+        "curve_number": (numbers, "number of the curve"),
+    }
+    of_curves = {
+        "curve_stable": ([one.stable for one in curves], "whether the curve is stable"),
+        "curve_side": ([one.side for one in curves], "sign of the side to which the curve belongs"),
+        "curve_resolved": ([one.resolved for one in curves], "whether the curve is resolved"),
+    }
+    return along("point", of_points) | along("curve", of_curves)
+
+
 @frozen(eq=False)
 class SaddleManifolds(ReadOnlyArrays, Result):
     """Manifolds of both saddle orbits on a section; returned by `saddle_manifolds`.
@@ -256,7 +273,22 @@ class SaddleManifolds(ReadOnlyArrays, Result):
     stable: tuple[Manifold, ...] = field(repr=False)
 
     def _data(self) -> xr.Dataset:
-        return of_saddles(self)
+        import xarray as xr
+
+        saddles = {
+            "saddle_angle": (self.saddles[:, 0], "angle of the saddle orbit"),
+            "saddle_velocity": (self.saddles[:, 1], "angular velocity of the saddle orbit"),
+        }
+        curves = manifold_columns(
+            (*self.unstable, *self.stable), "from or to a small distance from the saddle orbit"
+        )
+        variables = curves | along("saddle", saddles)
+        attributes = described("Manifolds of the saddle orbits") | {
+            **quantities(self.system),
+            "section_phase": self.phase,
+            "cycles": self.cycles,
+        }
+        return xr.Dataset(variables, attrs=attributes)
 
     def __str__(self) -> str:
         curves = (*self.unstable, *self.stable)
