@@ -100,8 +100,21 @@ EVERY = {
     "fragility": (rk.fragility, OF_RECORDS | {"samples": 2, "width_spread": 0.1, "replicates": 100}),
     "sensitivity": (rk.sensitivity, OF_RECORDS),
     "overturning set": (rk.overturning_set, OF_RECORDS),
+    "orbits": (
+        rk.find_orbits,
+        {"system": system_with(amplitude=6.0, restitution=0.9), "max_period": 6, "effort": 0.5},
+    ),
+    "frequency response": (
+        rk.frequency_response,
+        {
+            "system": system_with(amplitude=2.0, restitution=0.9),
+            "period": np.linspace(0.5, 2.5, 150),
+            "modes": (1,),
+            "max_cycles": 2000,
+        },
+    ),
 }
-"""Every survey with a store: its function and arguments, a survey of more than one tile."""
+"""Every function with a store: itself and its arguments, those of more than one tile."""
 
 
 def files(folder):

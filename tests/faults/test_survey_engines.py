@@ -84,6 +84,20 @@ def test_processes_give_the_result_of_threads(name, processes):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("name", EVERY)
+def test_cluster_gives_every_survey_the_bytes_of_threads_though_a_worker_is_killed(name, cluster, tmp_path):
+    survey, arguments = EVERY[name]
+    plain = survey(**arguments, store=tmp_path / "threads").to_xarray().load()
+    first = min(worker["pid"] for worker in cluster.run(_pid).values())
+    killer = threading.Timer(0.1, os.kill, (first, signal.SIGKILL))
+    killer.start()
+    result = survey(**arguments, store=tmp_path / "cluster", executor=cluster.get_executor())
+    killer.join()
+    assert result.to_xarray().load().identical(plain)
+    assert files(tmp_path / "cluster") == files(tmp_path / "threads")
+
+
+@pytest.mark.long
 def test_cluster_gives_the_same_bytes_though_a_worker_is_killed(cluster, survey, tmp_path, whole):
     folder = tmp_path / "survey.zarr"
     first = min(worker["pid"] for worker in cluster.run(_pid).values())

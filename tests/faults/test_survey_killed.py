@@ -19,7 +19,7 @@ import xarray as xr
 
 from rocking.survey.run_survey import Pending, _settle
 from rocking.survey.store_access import defer_interrupt
-from stored_surveys import SURVEYS, chunks, files
+from stored_surveys import EVERY, SURVEYS, chunks, files
 
 # No thread begins here: then every run may be a fork of this process.
 BEGIN = f"""
@@ -47,6 +47,27 @@ while killed < 10:
     print(os.WIFSIGNALED(status), flush=True)
 """
 )
+EACH_KILLED = f"""
+import os, random, shutil, signal, sys, time
+
+sys.path.insert(0, {str(Path(__file__).parents[1])!r})
+from stored_surveys import EVERY
+
+(survey, arguments), folder, takes = EVERY[sys.argv[1]], sys.argv[2], float(sys.argv[3])
+moment, killed = random.Random(1991), 0
+while killed < 5:
+    child = os.fork()
+    if child == 0:
+        survey(**arguments, store=folder)
+        os._exit(0)
+    time.sleep(moment.uniform(0.0, takes))
+    os.kill(child, signal.SIGKILL)
+    _, status = os.waitpid(child, 0)
+    killed += os.WIFSIGNALED(status)
+    if not os.WIFSIGNALED(status):
+        shutil.rmtree(folder)  # it was quicker than its death: begin again
+print(killed)
+"""
 FULL = (
     BEGIN
     + """
@@ -66,9 +87,9 @@ survey.run(folder, max_cycles=20_000)
 )
 
 
-def ran(script, name, folder):
+def ran(script, name, folder, *more):
     return subprocess.run(
-        [sys.executable, "-c", script, name, folder],
+        [sys.executable, "-c", script, name, folder, *more],
         capture_output=True,
         text=True,
         timeout=200,
@@ -98,6 +119,18 @@ def test_survey_killed_ten_times_is_that_of_an_undisturbed_run_byte_for_byte(nam
     assert done.stdout.split().count("True") >= 5
     SURVEYS[name].run(folder)
     assert files(folder) == files(whole)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("each", EVERY)
+def test_every_survey_killed_five_times_gives_the_result_and_the_bytes_of_an_undisturbed_run(each, tmp_path):
+    survey, arguments = EVERY[each]
+    begun = time.perf_counter()
+    undisturbed = survey(**arguments, store=tmp_path / "undisturbed").to_xarray().load()
+    done = ran(EACH_KILLED, each, tmp_path / "killed", str(0.8 * (time.perf_counter() - begun)))
+    assert (done.stdout, done.stderr) == ("5\n", "")
+    assert survey(**arguments, store=tmp_path / "killed").to_xarray().load().identical(undisturbed)
+    assert files(tmp_path / "killed") == files(tmp_path / "undisturbed")
 
 
 def test_run_killed_between_a_folder_and_its_first_file_is_gone_on_with_in_silence(name, tmp_path, whole):

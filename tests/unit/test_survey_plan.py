@@ -8,7 +8,7 @@ import pytest
 
 from rocking.survey.run_survey import Cost, duration
 from rocking.survey.spec import SurveySpec
-from rocking.survey.tiling import COARSEST, MAX_IN_A_TILE, levels, tile_edges
+from rocking.survey.tiling import COARSEST, levels, tile_edges
 
 SHAPES = [(2, 2), (64, 64), (65, 64), (130, 131), (1000, 1000), (7, 100_000), (3, 200, 150), (1_000_000,)]
 
@@ -23,7 +23,7 @@ def test_every_point_of_a_level_lies_in_one_tile(shape):
         seen = np.zeros(level.shape, np.int8)
         for tile in level.tiles():
             seen[tile.region] += 1
-            assert math.prod(tile.shape) <= MAX_IN_A_TILE
+            assert math.prod(tile.shape) <= SurveySpec.in_a_tile
         assert (seen == 1).all()
 
 
@@ -56,7 +56,7 @@ def test_levels_go_from_few_points_to_all_and_share_what_they_say(shape):
     ],
 )
 def test_tiles_are_neither_many_nor_large(shape, edges):
-    assert tile_edges(shape) == edges
+    assert tile_edges(shape, SurveySpec.in_a_tile) == edges
 
 
 @pytest.mark.parametrize(

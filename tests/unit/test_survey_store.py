@@ -380,7 +380,7 @@ def test_every_survey_that_is_interrupted_is_resumed_and_repaired_to_the_result_
     before = computed()
     assert survey(**arguments, store=folder).to_xarray().load().identical(plain)
     assert 0 < computed() - before < whole
-    damaged = next(path for path in folder.glob("level-*/*/digests/**/*") if path.is_file())
+    damaged = next(path for path in folder.glob("**/level-*/*/digests/**/*") if path.is_file())
     Path(str(damaged).replace("digests", "c")).write_bytes(b"")
     with pytest.raises(OSError, match="recompute these tiles with repair"):
         survey(**arguments, store=folder)

@@ -688,7 +688,8 @@ rocking sensitivity example --height 2 --width 0.5 --pga-g 0.5:1.5:30 \\
             number("seed", "First index of the sequence of initial guesses.", 0),
             PROVE,
         ),
-        outputs=(csv("Write one row per orbit, with its state at τ = 0"), NETCDF, JSON),
+        outputs=(STORE, REPAIR, csv("Write one row per orbit, with its state at τ = 0"), NETCDF, JSON),
+        progress=True,
         details="Stable and unstable orbits are listed, each once. Completeness is not guaranteed: the search may miss orbits.",
         examples="""
 # Orbits of a period up to 3 forcing cycles, stable and unstable.
@@ -768,6 +769,8 @@ rocking continue --height 2 --width 0.5 --acceleration 4:2 \\
             max_cycles(10_000),
         ),
         outputs=(
+            STORE,
+            REPAIR,
             plot("Plot the largest |Θ| over period or frequency"),
             csv("Write one row per point of the branches, and one per response from rest"),
             NETCDF,

@@ -359,6 +359,7 @@ def frequency_response(options: Options) -> Request:
         "modes": options.get("modes", DEFAULT_MODES),
         "step": options["step"],
         "max_cycles": options["max_cycles"],
+        **select(options, "store", "repair"),
     }
     amplitude = next(name for name in AMPLITUDES if name in options)
     names = {varied.parameter: option(varied.name), "amplitude": option(amplitude)}

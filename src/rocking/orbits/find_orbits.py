@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+import os
+import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any, overload
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, overload
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -19,9 +22,14 @@ from rocking.model.text import counted
 from rocking.model.validation import instance, pair, refuse_if, whole, within
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts, orbit_from
+from rocking.orbits.parameter import identity_of
 from rocking.orbits.saddle_manifolds import response
 from rocking.proof.prove import check_provable
 from rocking.proof.prove import prove as proved
+from rocking.survey.measurement import Arrays, Measurement, Variable
+from rocking.survey.run_survey import run_survey
+from rocking.survey.spec import SurveySpec, Values
+from rocking.survey.store_access import check_folder_of_stores
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -115,6 +123,109 @@ class OrbitRegistry:
         self.owner = np.concatenate([self.owner, np.full(orbit.period, len(self.orbits))])
         self.orbits.append(orbit)
         self.pairs.append(len(self.counts) - 1)
+
+
+Map = tuple[int, bool]
+"""Forcing cycles of a map, and whether it is mirrored after half of them."""
+
+
+def maps_up_to(max_period: int) -> list[Map]:
+    """Return the maps over each period, then those over half of each odd period and mirrored."""
+    periods = range(1, max_period + 1)
+    return [(n, False) for n in periods] + [(n, True) for n in periods[::2]]
+
+
+NOT_FOUND, FOUND = 0, 1
+DIFFERENT = 7919
+"""Distance of the first guesses of two maps in their common sequence, so that maps have different guesses."""
+
+
+@frozen(eq=False)
+class SearchSpec(SurveySpec):
+    """Survey of Newton's method over maps and the initial guesses of a round."""
+
+    comment = "Attributes and variables are normalised as in Yim & Lin (1991), Eqs. (1)-(4)."
+    contiguous = True
+    numbers: ClassVar[dict[str, str]] = {"map": "number of the map", "guess": "number of the initial guess"}
+
+    system: System = field(kw_only=True)
+    max_period: int = field(kw_only=True)
+    box: tuple[float, ...] | None = field(kw_only=True)
+    seed: int = field(kw_only=True)
+
+    @property
+    def refines(self) -> bool:
+        """Flag: there is nothing between two guesses."""
+        return False
+
+    def inputs(self, values: Values) -> tuple[System, list[tuple[Map, np.ndarray]]]:
+        """Return the system, and the initial guesses (n, 2) of each map, in the order of the points."""
+        maps, numbers = values["map"].astype(int), values["guess"].astype(int)
+        known = maps_up_to(self.max_period)
+        parts = [(each, numbers[maps == each]) for each in np.unique(maps).tolist()]
+        return self.system, [
+            (known[each], _starts(self.system, self.box, guesses + self.seed + DIFFERENT * each))
+            for each, guesses in parts
+        ]
+
+    def described(self) -> dict[str, Any]:
+        """Return the quantities of the system, and what determines the guesses."""
+        ends = {} if self.box is None else {"guessed_range": list(self.box)}
+        return identity_of(self.system) | {"max_period": self.max_period, "seed": self.seed} | ends
+
+
+def fixed_points_at(
+    inputs: tuple[System, list[tuple[Map, np.ndarray]]], options: Mapping[str, int], stop: np.ndarray
+) -> Arrays | None:
+    """Return the results of Newton's method from initial guesses; None if another thread sets `stop`."""
+    system, parts = inputs
+    rows = []
+    for (period, mirrored), starts in parts:
+        if stop[0]:
+            return None
+        rows.append(newton_from_starts(system, period, mirrored, starts))
+    found, angle, velocity, _ = np.concatenate(rows).T
+    return {"angle": angle, "velocity": velocity, "found": found.astype(np.uint8)}
+
+
+FIXED_POINTS = Measurement(
+    "Search for periodic orbits of a free-standing block on a shaking base",
+    fixed_points_at,
+    (
+        Variable(
+            "angle", "float64", math.inf, {"long_name": "angle at the end of Newton's method", "units": "1"}
+        ),
+        Variable(
+            "velocity",
+            "float64",
+            math.inf,
+            {"long_name": "velocity at the end of Newton's method", "units": "1"},
+        ),
+        Variable(
+            "found",
+            "uint8",
+            255,
+            {
+                "long_name": "whether a fixed point was found",
+                "flag_values": np.array([NOT_FOUND, FOUND], np.uint8),
+                "flag_meanings": "none fixed-point",
+            },
+        ),
+    ),
+    {},
+    1,
+    shares="found",
+    batch=1024,
+)
+ROUND = re.compile(r"round-\d+")
+
+
+def round_in(store: str | os.PathLike[str] | None, number: int) -> Path | None:
+    """Return the folder of a round in the store of a search; None without a store. StoreError for a folder with anything else."""
+    if store is None:
+        return None
+    folder = check_folder_of_stores(store, ROUND)
+    return folder / f"round-{number}"
 
 
 MAX_PERIOD = 64
@@ -236,6 +347,11 @@ def find_orbits(
     effort: float = 1.0,
     seed: int = 0,
     prove: bool = False,
+    *,
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
+    progress: bool = False,
+    repair: bool = False,
 ) -> Orbits:
     """Search for all periodic orbits up to a period, stable and unstable.
 
@@ -259,6 +375,8 @@ def find_orbits(
         First index of the sequence of guesses, in [0, 2³² − 1]. Default: 0.
     prove : bool
         Whether to prove each orbit in ball arithmetic, as `orbit.proof`. Default: False.
+    store, executor, progress, repair
+        As in `parametric_map`, for Newton's method. The store holds one survey for each round, a folder in it.
 
     Returns
     -------
@@ -302,29 +420,30 @@ def find_orbits(
     box = _box(system, angles, velocities)
     there = clocked(system, (system.periodic.phase + math.tau * attractor_anchor.SECTION) % math.tau)
     known, used = OrbitRegistry(system, there.periodic.phase), 0
-    jobs = [(n, False) for n in range(1, max_period + 1)] + [(n, True) for n in range(1, max_period + 1, 2)]
+    maps = maps_up_to(max_period)
     settled = False
-    with ThreadPoolExecutor() as pool:
-        for number in range(MAX_ROUNDS):
-            count = max(round(effort * FIRST_ROUND * 2 ** max(number - 1, 0)), 1)
-            before = len(known.orbits)
-            batches = [_starts(there, box, count, used + seed + 7919 * j) for j, _ in enumerate(jobs)]
-            outcomes = pool.map(
-                lambda job, starts: newton_from_starts(there, job[0], job[1], starts), jobs, batches
-            )
-            for (period, _), out in zip(jobs, outcomes, strict=True):
-                known.add_states(out[out[:, 0] == 1.0, 1:3], period)
-            used += count
-            if number and len(known.orbits) == before:
-                settled = True
-                break
+    for number in range(MAX_ROUNDS):
+        count = max(round(effort * FIRST_ROUND * 2 ** max(number - 1, 0)), 1)
+        before = len(known.orbits)
+        axes = {"map": np.arange(float(len(maps))), "guess": np.arange(float(used), float(used + count))}
+        spec = SearchSpec(axes, system=there, max_period=max_period, box=box, seed=seed)
+        place = round_in(store, number)
+        found = run_survey(spec, FIXED_POINTS, place, executor, progress=progress, repair=repair).load()
+        for row, (period, _) in enumerate(maps):
+            here = found.isel(map=row)
+            states = np.column_stack([here["angle"], here["velocity"]])
+            known.add_states(states[here["found"].values == FOUND], period)
+        used += count
+        if number and len(known.orbits) == before:
+            settled = True
+            break
     order = sorted(range(len(known.orbits)), key=lambda i: _rank(known.orbits[i]))
     orbits = [known.orbits[i] for i in order]
     return Orbits(
         system=system,
         max_period=max_period,
         hits=tuple(known.hits[i] for i in order),
-        starts=used * len(jobs),
+        starts=used * len(maps),
         settled=settled,
         orbits=tuple(evolve(orbit, proof=proved(orbit)) if prove else orbit for orbit in orbits),
     )
@@ -359,9 +478,9 @@ def _box(system: System, angles: Any, velocities: Any) -> tuple[float, ...] | No
     return box
 
 
-def _starts(system: System, box: tuple[float, ...] | None, count: int, first: int) -> np.ndarray:
+def _starts(system: System, box: tuple[float, ...] | None, numbers: np.ndarray) -> np.ndarray:
     """Return evenly distributed initial guesses in the box, or in the region of all periodic orbits without braces."""
-    index = np.arange(first, first + count)[:, None] + 0.5
+    index = numbers[:, None] + 0.5
     x, y = np.mod(index * np.array([1.0 / PLASTIC, 1.0 / PLASTIC**2]), 1.0).T
     if box is not None:
         return np.column_stack([box[0] + (box[1] - box[0]) * x, box[2] + (box[3] - box[2]) * y])

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 from collections import Counter
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from rocking.model.arrays import ReadOnlyArrays, nan_if_none, read_only
 from rocking.model.orbit import Mode, Orbit
 from rocking.model.progress import Bar
 from rocking.model.result import Result, along, described
-from rocking.model.system import System
+from rocking.model.system import State, System
 from rocking.model.validation import (
     Refusal,
     WrongType,
@@ -26,13 +27,13 @@ from rocking.model.validation import (
     whole,
     within,
 )
-from rocking.model.verdict import Kind
+from rocking.model.verdict import Kind, Verdict
 from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
 from rocking.orbits.parameter import check_range, check_step, coordinate_of, different_values, with_value
 from rocking.orbits.special_points import SYMMETRY_BREAKING
-from rocking.response.classify import classify
+from rocking.orbits.verdicts import verdicts_over
 from rocking.theory import symmetric_modes
 
 if TYPE_CHECKING:
@@ -225,6 +226,8 @@ def _of_mode(n: int, branches: Sequence[Branch]) -> str:
 
 
 MAX_VALUES = 100_000
+# Longest response period sought, as in `classify`.
+MAX_PERIOD = 64
 # Largest difference of identical phases, and of the parameter at identical special points.
 SAME = 1e-6
 
@@ -239,7 +242,10 @@ def frequency_response(
     modes: Sequence[int] = (1, 3),
     step: float = 0.01,
     max_cycles: int = 10_000,
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
     progress: bool = False,
+    repair: bool = False,
 ) -> FrequencyResponse:
     """Compute the frequency response at one amplitude: branches of the (1, n) orbits, and verdicts on the response from rest.
 
@@ -261,8 +267,8 @@ def frequency_response(
     max_cycles : int
         Maximum number of forcing cycles for each response from rest, as in `classify`. A verdict of chaos needs 10⁴.
         Default: 10,000.
-    progress : bool
-        Whether to show the progress on stderr. Default: False.
+    store, executor, progress, repair
+        As in `parametric_map`, for the responses from rest. The branches, which take a small part of the time, are followed anew.
 
     Returns
     -------
@@ -310,9 +316,19 @@ def frequency_response(
     followed = tuple(dict.fromkeys(_odd(n) for n in _sequence(modes)))
     step = check_step(step)
     systems = [with_value(system, parameter, value) for value in values.tolist()]
-    total = len(systems) * (1 + len(followed))
-    with Bar(total, "frequency response", shown=instance("progress", progress, bool)) as bar:
-        rest = _from_rest(systems, max_cycles, bar)  # first, because it rejects an invalid max_cycles
+    verdicts = verdicts_over(
+        system,
+        State(),
+        parameter,
+        values,
+        max_cycles,
+        MAX_PERIOD,
+        store,
+        executor,
+        progress=progress,
+        repair=repair,
+    )
+    with Bar(len(systems) * len(followed), "branches", shown=progress) as bar:
         branches = [
             branch
             for n in followed
@@ -324,7 +340,7 @@ def frequency_response(
         parameter=parameter,
         values=values,
         branches=tuple(branches),
-        rest=rest,
+        rest=_from_rest(verdicts),
     )
 
 
@@ -406,13 +422,9 @@ def _orbit_of_mode(mode: Mode, system: System, parameter: str) -> Orbit | None:
     return orbit_of(chain, parameter, there.phases, there.trace, there.determinant)
 
 
-def _from_rest(systems: Sequence[System], max_cycles: int, bar: Bar) -> NDArray[np.void]:
-    verdicts = []
-    with ThreadPoolExecutor() as pool:
-        for verdict in pool.map(lambda system: classify(system, max_cycles=max_cycles), systems):
-            verdicts.append(verdict)
-            bar.advance(1)
-    rest = np.empty(len(systems), REST)
+def _from_rest(verdicts: Sequence[Verdict]) -> NDArray[np.void]:
+    """Return the table of the responses from rest."""
+    rest = np.empty(len(verdicts), REST)
     rest["kind"] = [Kind(verdict.kind).value for verdict in verdicts]
     rest["period"] = [verdict.period or 0 for verdict in verdicts]
     rest["peak"] = [verdict.peak for verdict in verdicts]

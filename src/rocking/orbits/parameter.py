@@ -85,6 +85,14 @@ def fixed_quantities(system: System, *varied: str) -> dict[str, float]:
     return {name: value for name, value in result.items() if name not in left_out}
 
 
+def identity_of(system: System, *varied: str) -> dict[str, Any]:
+    """Return what a store states of a system: the parameters that do not vary, and the table of its restitution, by name."""
+    law = system.restitution_table
+    return fixed_quantities(system, *varied) | (
+        {"restitution_table": [list(row) for row in law]} if law else {}
+    )
+
+
 def check_range(parameter: str, bounds: tuple[float, float], argument: str = "bounds") -> tuple[float, float]:
     """Return the bounds of a parameter, after checking that they are ordered and within its range."""
     allowed = "be (lowest, highest), the one below the other"

@@ -284,8 +284,7 @@ def classify(
     max_cycles, max_period = budget(max_cycles, max_period).values()
     check_wanted(prove, system)
     judgement = _judged(system, start, max_cycles, max_period)
-    case = Case(system, max_cycles, max_period, judgement, _to_its_end(system, start, judgement))
-    return with_proof(_verdict(start, case), prove)
+    return with_proof(verdict_of(system, start, judgement, max_cycles, max_period), prove)
 
 
 def budget(max_cycles: int, max_period: int) -> dict[str, int]:
@@ -341,8 +340,12 @@ def _to_its_end(system: System, start: State, judgement: kernel.Judgement) -> Mo
     return motion if same else None
 
 
-def _verdict(start: State, case: Case) -> Verdict:
-    judged, motion = case.judgement, case.motion
+def verdict_of(
+    system: System, start: State, judged: kernel.Judgement, max_cycles: int, max_period: int
+) -> Verdict:
+    """Return the verdict on a motion from the judgement on it."""
+    motion = _to_its_end(system, start, judged)
+    case = Case(system, max_cycles, max_period, judged, motion)
     orbit = _orbit(case) if judged.kind == kernel.PERIODIC else None
     # For an undetermined response, the exponent is reported only if it was tested.
     measured = judged.kind != kernel.UNDETERMINED or judged.ground in kernel.WEIGHED

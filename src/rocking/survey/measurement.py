@@ -59,6 +59,8 @@ class Measurement:
         Version of the method.
     shares : str
         Name of the variable with flags whose fractions the progress bar shows.
+    batch : int or None
+        Points per batch of a measurement whose points take long. Default: `BATCH`.
     """
 
     title: str
@@ -67,6 +69,7 @@ class Measurement:
     options: dict[str, int]
     method: int
     shares: str = "kind"
+    batch: int | None = None
 
     def blank(self, shape: tuple[int, ...]) -> Arrays:
         """Return arrays in which no point is computed."""
@@ -90,7 +93,7 @@ class Batch:
 
 def batches(tile: Tile, spec: SurveySpec, requested: np.ndarray, measure: Measurement) -> Iterator[Batch]:
     """Split a tile into batches: strided, for load balance, or of neighbours, where these share some of the work."""
-    parts = -(-requested.size // BATCH)
+    parts = -(-requested.size // (measure.batch or BATCH))
     split = [requested[part::parts] for part in range(parts)]
     if spec.contiguous:
         split = np.array_split(requested, parts)

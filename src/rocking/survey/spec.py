@@ -58,6 +58,9 @@ class SurveySpec:
     contiguous: ClassVar[bool] = False
     """Flag: the points of a batch are neighbours, because neighbours share some of the work."""
 
+    in_a_tile: ClassVar[int] = 1 << 16
+    """Largest number of points of a tile, the part of a survey that an interrupted run keeps or loses."""
+
     numbers: ClassVar[dict[str, str]] = {}
     """Descriptions of the axes that are numbers of something, by name."""
 

@@ -43,6 +43,17 @@ def check_store(path: str | os.PathLike[str]) -> Path:
     return folder
 
 
+def check_folder_of_stores(path: str | os.PathLike[str], names: re.Pattern[str]) -> Path:
+    """Return the path of a folder that holds only stores with given names; StoreError if it is neither this nor a new or empty folder."""
+    if isinstance(path, str | os.PathLike) and os.fspath(path) and Path(path).is_dir():
+        others = sorted(each.name for each in Path(path).iterdir() if not names.fullmatch(each.name))
+        if not others:
+            return Path(path)
+        what = "the store of another survey" if ROOT in others else f"a folder that contains {others[0]!r}"
+        raise StoreError(something_else(Path(path), what))
+    return check_store(path)
+
+
 def something_else(folder: Path, what: str) -> str:
     """Return the message for a folder that is not a store of a survey."""
     return f"store must be a new folder, or the folder of an earlier survey; got {formatted_path(folder)}, which is {what}"

@@ -163,7 +163,7 @@ def joined(path: str, stored: Layout, spec: SurveySpec) -> Layout:
     axes = {name: values for name, (values, _) in zip(stored.axes, pairs, strict=True)}
     halvings = [times for _, times in pairs]
     more = [tuple(number < times for times in halvings) for number in range(max(halvings))]
-    edges = tile_edges([values.size for values in axes.values()])
+    edges = tile_edges([values.size for values in axes.values()], spec.in_a_tile)
     layout = Layout(axes, stored.halved + more, stored.tiles + [edges] * len(more))
     for number in range(len(stored.tiles), len(layout.tiles)):
         layout.tiles[number] = even_edges(layout.levels()[number].axes, edges)

@@ -11,7 +11,6 @@ from rocking.survey.spec import SurveySpec
 
 COARSEST = 64
 """Largest number of points along an axis of the coarsest grid."""
-MAX_IN_A_TILE = 1 << 16
 MIN_TILES = 4
 """Minimum number of tiles along an axis of the finest grid, so that an interrupted run keeps some of them."""
 MIN_EDGE = 32
@@ -117,7 +116,7 @@ def levels(spec: SurveySpec) -> list[Level]:
     while spec.refines and any(values.size > COARSEST for values in grids[0].values()):
         halvings.insert(0, tuple(values.size > COARSEST for values in grids[0].values()))
         grids.insert(0, thinned(grids[0], halvings[0]))
-    edges = tile_edges(spec.shape)
+    edges = tile_edges(spec.shape, spec.in_a_tile)
     return [
         Level(number, axes, halved, even_edges(axes, edges))
         for number, (axes, halved) in enumerate(zip(grids, (None, *halvings), strict=True))
@@ -132,12 +131,12 @@ def thinned(axes: dict[str, np.ndarray], halved: tuple[bool, ...]) -> dict[str, 
 
 def finest(spec: SurveySpec) -> list[Level]:
     """Return the finest level alone, for a survey in memory, which needs no coarser one."""
-    return [Level(0, spec.axes, None, even_edges(spec.axes, tile_edges(spec.shape)))]
+    return [Level(0, spec.axes, None, even_edges(spec.axes, tile_edges(spec.shape, spec.in_a_tile)))]
 
 
-def tile_edges(shape: Sequence[int]) -> tuple[int, ...]:
-    """Return the edges of tiles of limited size: short axes are undivided, the others divided evenly."""
-    edges, room = [0] * len(shape), MAX_IN_A_TILE
+def tile_edges(shape: Sequence[int], largest: int) -> tuple[int, ...]:
+    """Return the edges of tiles of at most `largest` points: short axes are undivided, the others divided evenly."""
+    edges, room = [0] * len(shape), largest
     for left, place in enumerate(sorted(range(len(shape)), key=lambda place: shape[place])):
         most = int(room ** (1 / (len(shape) - left)) + 1e-9)
         edges[place] = min(shape[place], max(-(-shape[place] // MIN_TILES), MIN_EDGE), most)
