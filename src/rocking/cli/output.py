@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -22,7 +21,7 @@ from rocking.model.files import (
     replacing_hdf5,
     resolve_path,
 )
-from rocking.model.tables_and_json import finite
+from rocking.model.tables_and_json import json_text
 from rocking.model.text import formatted_path
 from rocking.survey import export
 
@@ -237,7 +236,7 @@ def show(report: Report, result: Any, request: Request, paths: Sequence[Path]) -
     """Print the result as a table or as JSON, and the paths of the files."""
     if request.options.get("json"):
         files = {"files": [str(path) for path in paths]}
-        print_json(report.json(result, request) | files)
+        print(json_text(report.json(result, request) | files))
     else:
         print_table(report.text(result, request), paths)
 
@@ -257,11 +256,6 @@ def styled(text: str, **style: Any) -> str:
     """Return a text with a style if stdout is a terminal, unless the user wants no colours."""
     plain = not sys.stdout.isatty() or os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
     return text if plain else click.style(text, **style)
-
-
-def print_json(record: dict[str, Any]) -> None:
-    """Print a JSON object."""
-    print(json.dumps(finite(record), indent=2, ensure_ascii=False, allow_nan=False))
 
 
 def aligned(rows: Sequence[Row]) -> Iterator[str]:

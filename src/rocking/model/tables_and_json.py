@@ -6,6 +6,7 @@ The quantities of `rocking.model.quantity` give units, headings and keys. A vari
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Hashable, Iterable, Iterator, Mapping
@@ -328,6 +329,11 @@ def _keyed_rows(data: xr.Dataset, group: Group, own: Quantities, block: Any) -> 
         si, converted = _converted(quantity(name, own, description).si, values, block)
         keyed[group.short(name, si.key if si else IN_SI_UNITS.get(name, name))] = converted.tolist()
     return [dict(zip(keyed, row, strict=True)) for row in zip(*keyed.values(), strict=True)]
+
+
+def json_text(entries: Mapping[str, Any]) -> str:
+    """Return entries as the text of a JSON object."""
+    return json.dumps(finite(dict(entries)), indent=2, ensure_ascii=False, allow_nan=False)
 
 
 def finite(value: Any) -> Any:
