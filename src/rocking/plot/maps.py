@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap, to_rgb
+from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -266,9 +266,9 @@ def _thinned(read: Responses, most: int) -> tuple[np.ndarray, np.ndarray, np.nda
 
 def _cells(ax: Axes, codes: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
     """Draw one cell per point, and stripes over hatched cells."""
-    colours = ListedColormap([look.colour for look in LOOKS]).with_extremes(over=palette.NOT_COMPUTED)
-    norm = BoundaryNorm(np.arange(len(LOOKS) + 1) - 0.5, len(LOOKS))
-    ax.pcolorfast(x, y, codes, cmap=colours, norm=norm).set(gid="map", rasterized=True)
+    how = style.coded([look.colour for look in LOOKS])
+    how["cmap"] = how["cmap"].with_extremes(over=palette.NOT_COMPUTED)
+    ax.pcolorfast(x, y, codes, **how).set(gid="map", rasterized=True)
     hatched = [number for number, look in enumerate(LOOKS) if look.hatch is not None]
     if np.isin(codes, hatched).any():
         ax.imshow(

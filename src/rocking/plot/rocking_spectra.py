@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -376,8 +376,7 @@ def overturning_spectrum(
         turn_across(data["frequency"].values),
         turn_up(data["amplitude"].values),
         codes,
-        cmap=ListedColormap([colour for _, colour in LOOKS]),
-        norm=BoundaryNorm(np.arange(len(LOOKS) + 1) - 0.5, len(LOOKS)),
+        **style.coded([colour for _, colour in LOOKS]),
         shading="nearest",
         rasterized=True,
         gid="outcomes",

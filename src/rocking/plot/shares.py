@@ -6,7 +6,6 @@ import re
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
@@ -347,8 +346,7 @@ def repeatability_map(result: RepeatabilityMap, ax: Axes | None = None, block: B
         turn_across(across),
         turn_up(up),
         values,
-        cmap=ListedColormap(hues),
-        norm=BoundaryNorm(np.arange(count + 2) - 0.5, count + 1),
+        **style.coded(hues),
         shading="nearest",
         rasterized=True,
         gid="map",

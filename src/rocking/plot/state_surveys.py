@@ -6,7 +6,6 @@ from collections import Counter
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from rocking.model.block import Block
@@ -75,14 +74,12 @@ def basins(result: BasinMap, ax: Axes | None = None, block: Block | None = None)
     places = result.dataset.attractor
     (turn_across, x_label), (turn_up, y_label) = (parameter(name, block) for name in ("angle", "velocity"))
     ax = style.own(ax, height=4.0)
-    map_ = ListedColormap(hues)
-    norm = BoundaryNorm(np.arange(len(hues) + 1) - 0.5, len(hues))
     if places.ndim == 2:
         steps = {name: slice(None, None, -(-size // MAX_DRAWN)) for name, size in places.sizes.items()}
         drawn = places.isel(steps).transpose("velocity", "angle")
         across, up = turn_across(drawn.angle.values), turn_up(drawn.velocity.values)
         ax.pcolormesh(
-            across, up, drawn.values, cmap=map_, norm=norm, shading="nearest", rasterized=True, gid="basins"
+            across, up, drawn.values, **style.coded(hues), shading="nearest", rasterized=True, gid="basins"
         )
         for number, each in enumerate(result.attractors):
             if each.kind is Kind.UNDETERMINED:
@@ -93,8 +90,7 @@ def basins(result: BasinMap, ax: Axes | None = None, block: Block | None = None)
             turn_across(places.angle.values),
             turn_up(places.velocity.values),
             c=places.values,
-            cmap=map_,
-            norm=norm,
+            **style.coded(hues),
             s=style.point_size(places.size) ** 2,
             linewidths=0,
             rasterized=places.size > style.MAX_MARKS,

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from attrs import frozen
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullLocator, ScalarFormatter
 from numpy.typing import NDArray
 
@@ -224,6 +225,12 @@ def check_labels(ax: Axes, across: str, upright: str) -> None:
 def patches(ax: Axes, handles: list, columns: int = 2) -> None:
     """Draw a legend of coloured patches."""
     ax.legend(handles=handles, **BELOW, ncols=columns)
+
+
+def coded(colours: Sequence[str]) -> dict[str, Any]:
+    """Return the arguments with which a function of matplotlib draws code k in the colour k."""
+    count = len(colours)
+    return {"cmap": ListedColormap(colours), "norm": BoundaryNorm(np.arange(count + 1) - 0.5, count)}
 
 
 def point_size(count: int) -> float:
