@@ -21,7 +21,14 @@ from rocking.papers.yim_lin_1991 import surveys
 NAMES = ["01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11", "12", "13a", "13b"]
 TABLES = [f"table-{name}{kind}" for name in ("exponents", "claims") for kind in (".csv", ".md")]
 BEYOND = ["chaos", "cascade", "crisis", "threshold", "coexistence", "zoom", "bifurcations"]
-PAGE = ["index.html", *(["index.pdf"] if page.can_print() else [])]
+PAGES = [
+    "index.html",
+    "figures.html",
+    *(f"claims-{page.slug(chapter.title)}.html" for chapter in YIM_LIN_1991.chapters),
+    "further-results.html",
+    "verdicts.html",
+]
+PRINTED = ["index.pdf"] if page.can_print() else []
 
 
 @pytest.fixture
@@ -32,7 +39,7 @@ def folder(reproduced):
 def test_every_figure_table_and_page_is_written(reproduced):
     folder, paths = reproduced
     drawn = [*(f"figure-{name}" for name in NAMES), *(f"beyond-{name}" for name in BEYOND)]
-    expected = [f"{name}{kind}" for name in drawn for kind in (".png", ".svg")] + TABLES + PAGE
+    expected = [f"{name}{kind}" for name in drawn for kind in (".png", ".svg")] + TABLES + PAGES + PRINTED
     assert sorted(path.name for path in paths) == sorted(expected)
     assert sorted(folder.iterdir()) == sorted(paths)
 
@@ -71,11 +78,13 @@ def test_table_of_claims_holds_every_one_and_each_has_the_expected_verdict(folde
     assert all(bool(row["explanation"]) == (row["verdict"] != Standing.CONFIRMED) for row in rows)
 
 
-def test_page_holds_every_picture_and_claim_and_asks_for_nothing(folder):
-    page = (folder / "index.html").read_text(encoding="utf-8")
-    assert page.count('<img src="data:image/') == page.count("<img") == len(NAMES) + len(BEYOND)
-    assert page.count("<tr>") - page.count("<thead>") == sum(map(len, YIM_LIN_1991.chapters))
-    assert not re.search(r"""(src|href)=(?!["']?(data:|#))|@import|url\(|<script""", page)
+def test_pages_hold_every_picture_and_claim_and_ask_for_nothing(folder):
+    text = "".join((folder / name).read_text(encoding="utf-8") for name in PAGES)
+    assert text.count('<img src="data:image/') == text.count("<img") == len(NAMES) + len(BEYOND)
+    assert text.count('<tr id="claim-') == sum(map(len, YIM_LIN_1991.chapters))
+    assert not re.search(r"""src=(?!["']?data:)|@import|url\(|<script""", text)
+    links = set(re.findall(r'href="([^"#]*)', text)) - {""}
+    assert links == {*PAGES, *PRINTED}
 
 
 @pytest.mark.parametrize("name", NAMES)

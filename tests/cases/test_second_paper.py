@@ -1,4 +1,4 @@
-"""Report on pulses and earthquakes: every row computed, none unexplained, its numbers those that others found, its page complete."""
+"""Report on pulses and earthquakes: every row computed, none unexplained, its numbers those that others found, its pages complete."""
 
 import csv
 import math
@@ -18,6 +18,12 @@ from rocking.papers.report.reproduce import reproduce
 
 CHAPTERS = PULSES_AND_EARTHQUAKES.chapters
 FIGURES = ["01", "02", "03", "04", "05"]
+PAGES = [
+    "index.html",
+    "figures.html",
+    *(f"claims-{page.slug(chapter.title)}.html" for chapter in CHAPTERS),
+    "verdicts.html",
+]
 ROWS = {(chapter.title, claim.compute.__name__): claim for chapter in CHAPTERS for claim in chapter}
 ZHANG, MAKRIS, ROUSSOS, HOUSNER = (
     "Zhang & Makris (2001)",
@@ -210,12 +216,12 @@ def test_distance_from_a_printed_pair_is_zero_between_its_numbers():
 
 
 @pytest.mark.long
-def test_report_has_all_figures_the_table_and_the_page(folder):
+def test_report_has_all_figures_the_table_and_the_pages(folder):
     folder, lines = folder
     pdf = ["index.pdf"] if page.can_print() else []
     expected = [f"figure-{name}{kind}" for name in FIGURES for kind in (".png", ".svg")]
     assert sorted(path.name for path in folder.iterdir()) == sorted(
-        [*expected, "table-claims.csv", "table-claims.md", "index.html", *pdf]
+        [*expected, "table-claims.csv", "table-claims.md", *PAGES, *pdf]
     )
     (line,) = lines
     assert line.startswith(f"{len(ROWS)} claims of the papers: confirmed (")
@@ -224,11 +230,13 @@ def test_report_has_all_figures_the_table_and_the_page(folder):
 
 
 @pytest.mark.long
-def test_page_shows_every_row_and_figure_and_loads_nothing(folder):
-    text = (folder[0] / "index.html").read_text(encoding="utf-8")
+def test_pages_show_every_row_and_figure_and_load_nothing(folder):
+    text = "".join((folder[0] / name).read_text(encoding="utf-8") for name in PAGES)
     assert text.count("<img") == text.count('<img src="data:image/') == len(FIGURES)
-    assert text.count("<tr>") - text.count("<thead>") == len(ROWS)
-    assert not re.search(r"""(src|href)=(?!["']?(data:|#))|@import|url\(|<script""", text)
+    assert text.count('<tr id="claim-') == len(ROWS)
+    assert not re.search(r"""src=(?!["']?data:)|@import|url\(|<script""", text)
+    pdf = ["index.pdf"] if page.can_print() else []
+    assert set(re.findall(r'href="([^"#]*)', text)) - {""} == {*PAGES, *pdf}
 
 
 @pytest.mark.long

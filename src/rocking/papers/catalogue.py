@@ -10,7 +10,7 @@ YIM_LIN_1991 = Paper(
     title="Yim & Lin (1991), recomputed",
     lead="""\
 All figures and claims of S. C. S. Yim and H. Lin, Nonlinear impact and chaotic response of slender rocking objects,
-J. Eng. Mech. ASCE 117 (1991), recomputed with rocking {version}. Each verdict was computed when this page was generated. The claims
+J. Eng. Mech. ASCE 117 (1991), recomputed with rocking {version}. Each verdict was computed when this report was generated. The claims
 are paraphrased; their numbers and locations are those of the paper. The explanations after a verdict are written by hand. If the
 computation does not support an explanation, the verdict is “not confirmed”.""",
     source="the paper",
@@ -30,10 +30,10 @@ PULSES_AND_EARTHQUAKES = Paper(
     lead="""\
 Formulas and numbers of Housner (1963), Shi et al. (1996), Makris & Roussos (2000), Zhang & Makris (2001) and Makris & Konstantinidis
 (2003), recomputed with rocking {version}. They are those of the slender block or, where a row says so, of the full equation of motion.
-Each verdict was computed when this page was generated. The claims are paraphrased; their numbers and locations are those of the papers. The
-explanations after a verdict are written by hand. If the computation does not support an explanation, the verdict is “not confirmed”. Rows
-that need a record which does not come with the package are not judged. e is the ratio of the velocities after and before an impact. A =
-a/(gθcr) is the normalised acceleration, Ω the frequency of a pulse over the frequency parameter of the block.""",
+Each verdict was computed when this report was generated. The claims are paraphrased; their numbers and locations are those of the papers.
+The explanations after a verdict are written by hand. If the computation does not support an explanation, the verdict is “not confirmed”.
+Rows that need a record which does not come with the package are not judged. e is the ratio of the velocities after and before an impact.
+A = a/(gθcr) is the normalised acceleration, Ω the frequency of a pulse over the frequency parameter of the block.""",
     source="the papers",
     modules=("pulses_and_earthquakes.figures",),
     claims=("pulses_and_earthquakes.claims.pulses", "pulses_and_earthquakes.claims.earthquakes"),

@@ -66,6 +66,11 @@ class Standing(StrEnum):
     NOT_CONFIRMED = "not confirmed"
     UNTESTED = "not judged"
 
+    @property
+    def key(self) -> str:
+        """Name in addresses and styles."""
+        return self.name.lower().replace("_", "-")
+
 
 @frozen
 class Finding:
@@ -104,6 +109,8 @@ class Claim:
         Explanation, or the correct statement.
     cost : float
         Approximate processor time, s.
+    main : bool
+        Whether the claim is among the main findings, which the first page of the report lists.
     """
 
     place: str
@@ -112,6 +119,12 @@ class Claim:
     otherwise: Standing
     because: str
     cost: float
+    main: bool = False
+
+    @property
+    def anchor(self) -> str:
+        """Name of the claim in addresses. It is the same in all runs."""
+        return f"claim-{self.compute.__name__.replace('_', '-')}"
 
     @property
     def name(self) -> str:
@@ -164,12 +177,14 @@ class Chapter(list[Claim]):
         error: str = "",
         untested: str = "",
         cost: float = 0.05,
+        main: bool = False,
     ) -> Callable[[Callable[[], Finding]], Callable[[], Finding]]:
         """Register the decorated function as the test of the claim in its docstring.
 
         `qualified`, `misprint` or `error` is the explanation for a claim that does not hold as printed; its name selects
         the verdict. The explanation counts only if the finding supports it. `untested` is the reason why a claim cannot be
-        tested with this package; its finding supports that reason. `cost` is the approximate processor time, s.
+        tested with this package; its finding supports that reason. `cost` is the approximate processor time, s. `main` says
+        that the claim is among the main findings.
         """
         explained = {
             Standing.QUALIFIED: qualified,
@@ -183,7 +198,7 @@ class Chapter(list[Claim]):
 
         def add(compute: Callable[[], Finding]) -> Callable[[], Finding]:
             says = " ".join((inspect.getdoc(compute) or "").split()).removesuffix(".")
-            self.append(Claim(place, says, compute, otherwise, because, cost))
+            self.append(Claim(place, says, compute, otherwise, because, cost, main))
             return compute
 
         return add

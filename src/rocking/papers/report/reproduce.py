@@ -37,7 +37,7 @@ def reproduce(
         Folder for the files; created if it does not exist.
     figures : iterable of str or int, optional
         Names of figures and tables, such as 12, "13a" or "claims"; `Paper.names` lists them. Default: all of them, and the
-        report index.html, also as PDF if the libraries of WeasyPrint are available.
+        report, whose first page is index.html, also as PDF if the libraries of WeasyPrint are available.
     progress : bool
         Whether to show on stderr the part of the cost that is done, and the steps that run. Default: False.
     summary : callable, optional
@@ -77,7 +77,7 @@ def reproduce(
     with Bar(cost, title=title, in_seconds=True, shown=instance("progress", progress, bool)) as bar:
         results = dict(zip(every, carry_out(every, bar), strict=True))
         written: list[Path] = []
-        chapters: list[page.Verdicts] = []
+        chapters: list[page.Section] = []
         for name in requested:
             computed = [results[step] for step in steps[name]]
             if name == CLAIMS:
@@ -124,11 +124,18 @@ def _draw(draw: Callable[[], Figure], stem: Path) -> list[Path]:
         return [rk.plot.save(figure, stem.with_name(stem.name + suffix)) for suffix in (".png", ".svg")]
 
 
-def _write_page(paper: Paper, folder: Path, chapters: list[page.Verdicts]) -> list[Path]:
+def _write_page(paper: Paper, folder: Path, chapters: list[page.Section]) -> list[Path]:
     figures, additional = (
-        [_picture(part, folder) for part in paper.of(kind)] for kind in (Kind.FIGURE, Kind.ADDITIONAL)
+        page.Section(name, title, pictures=[_picture(part, folder) for part in paper.of(kind)])
+        for name, title, kind in (
+            ("figures", "Figures", Kind.FIGURE),
+            ("further-results", "Further results", Kind.ADDITIONAL),
+        )
     )
-    return page.write(folder, paper.title, paper.lead, figures, chapters, additional)
+    sections = [figures, *chapters, additional]
+    return page.write(
+        folder, paper.title, paper.lead, [each for each in sections if each.pictures or each.claims]
+    )
 
 
 def _picture(part: Part, folder: Path) -> page.Picture:

@@ -133,7 +133,7 @@ def array_5() -> Finding:
 FURTHER = PULSES_AND_EARTHQUAKES.chapter("Further results of this report")
 
 
-@FURTHER.claim("Overturning scales")
+@FURTHER.claim("Overturning scales", main=True)
 def not_an_interval() -> Finding:
     """A scale factor above one that overturns a block need not overturn it: no record has one overturning acceleration."""
     rows = [surveys.fallen(surveys.scales()), *surveys.fallen(surveys.synthetic_scales())]
@@ -164,7 +164,7 @@ def fractal() -> Finding:
     )
 
 
-@FURTHER.claim("Rocking spectra")
+@FURTHER.claim("Rocking spectra", main=True)
 def larger_is_not_safer() -> Finding:
     """A larger block may overturn where a smaller one of the same slenderness stands."""
     spectrum = surveys.spectrum().transpose("slenderness", "size")
@@ -182,7 +182,7 @@ def larger_is_not_safer() -> Finding:
     )
 
 
-@FURTHER.claim("Integration in fixed steps")
+@FURTHER.claim("Integration in fixed steps", main=True)
 def fixed_steps() -> Finding:
     """The classical Runge–Kutta method gives wrong verdicts, even with twenty steps between two samples of a record."""
     wrong = surveys.wrong_verdicts()

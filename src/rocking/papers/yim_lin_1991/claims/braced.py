@@ -114,7 +114,7 @@ def dominant() -> Finding:
     )
 
 
-@BRACED_SYSTEM.claim("Conclusion 3", cost=8.0)
+@BRACED_SYSTEM.claim("Conclusion 3", cost=8.0, main=True)
 def enlarged() -> Finding:
     """Braces enlarge the region of chaos."""
     maps = [surveys.share(survey, rk.Kind.CHAOTIC) for survey in (surveys.damped(), surveys.braced())]
@@ -141,7 +141,7 @@ def more_sensitive() -> Finding:
 CONCLUSIONS = YIM_LIN_1991.chapter("Abstract and conclusions")
 
 
-@CONCLUSIONS.claim("Abstract; conclusion 1")
+@CONCLUSIONS.claim("Abstract; conclusion 1", main=True)
 def two_new_kinds() -> Finding:
     """Besides periodic and overturning responses there are quasi-periodic and chaotic ones."""
     survey = surveys.undamped()
@@ -152,7 +152,7 @@ def two_new_kinds() -> Finding:
     )
 
 
-@CONCLUSIONS.claim("Conclusion 1", cost=0.3)
+@CONCLUSIONS.claim("Conclusion 1", cost=0.3, main=True)
 def coexist() -> Finding:
     """For some systems chaotic and periodic responses coexist."""
     survey = surveys.starts(10.103037, 1.721328, 0.8)
@@ -182,6 +182,7 @@ def unrepeatable() -> Finding:
 @CONCLUSIONS.claim(
     "Conclusion 2",
     qualified="a first approximation: the manifolds touch at A*, above which, up to √(1 + Ω²), the boundary of overturning is fractal",
+    main=True,
 )
 def boundary_given() -> Finding:
     """The analysis gives a boundary for the existence of chaotic response."""

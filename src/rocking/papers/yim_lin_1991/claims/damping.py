@@ -94,6 +94,7 @@ def figure_10() -> Finding:
     "Numerical results; conclusion 3",
     error="neutrally stable periodic responses exist, and the islands of figure 5 surround one; it is true that none attracts and "
     "none is reached from rest",
+    main=True,
 )
 def no_periodic() -> Finding:
     """With e = 1 no periodic response exists."""
@@ -379,6 +380,7 @@ def between_curves() -> Finding:
     "Numerical results; conclusion 4",
     error="every impact contracts areas by e², so that no invariant closed curve can exist; a motion on an apparent curve is a long "
     "transient",
+    main=True,
 )
 def damped_quasi_periodic() -> Finding:
     """Other initial states and parameters give damped quasi-periodic responses."""
@@ -504,6 +506,7 @@ def chaos_above_095() -> Finding:
 @DAMPING.claim(
     "Numerical results; conclusion 4",
     qualified="rare for light damping, but not for heavy damping: about every fifth system is chaotic at e = 0.2",
+    main=True,
 )
 def rare() -> Finding:
     """Chaotic responses of damped systems are rare and hard to find."""
@@ -543,7 +546,7 @@ def region_chaotic() -> Finding:
     )
 
 
-@DAMPING.claim("Numerical results; conclusion 4", cost=5.0)
+@DAMPING.claim("Numerical results; conclusion 4", cost=5.0, main=True)
 def sensitivity() -> Finding:
     """Damping lowers the sensitivity of the response."""
     uncertain = {e: surveys.repeatable(e).uncertain for e in (1.0, 0.97, 0.925, 0.8, 0.5, 0.2)}

@@ -413,6 +413,7 @@ def lower_orbit() -> Finding:
     error="strongly damped blocks move chaotically below A_M, and even below A*, where the manifolds do not intersect. Period doubling "
     "of bounded motions needs no intersection",
     cost=0.8,
+    main=True,
 )
 def no_zeros() -> Finding:
     """Without zeros of Melnikov's function there is no chaotic response."""
