@@ -6,6 +6,7 @@
 import shutil
 from pathlib import Path
 
+from checked import Page
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from executed import ROOT
@@ -18,7 +19,7 @@ REPORTS = tuple(PAPERS)  # names of folders, also in the built pages
 
 
 def found(report):
-    """Return the files of a report that are there, page first; none without the page."""
+    """Return the first page and the PDF of a report, as far as they are there; none without the page."""
     folder = MADE / report
     return (
         [folder / name for name in (PAGE, TWIN) if (folder / name).exists()]
@@ -27,8 +28,15 @@ def found(report):
     )
 
 
+def pages(report):
+    """Return the pages of a report to which its first page links."""
+    folder = MADE / report
+    links = Page((folder / PAGE).read_text(encoding="utf-8")).links
+    return sorted({folder / link.partition("#")[0] for link in links if ".html" in link})
+
+
 class Report(Directive):
-    """Links to a report, as page and as PDF."""
+    """Links to a report, as pages and as PDF."""
 
     required_arguments = 1
 
@@ -58,9 +66,10 @@ def publish(app, failure):
         for report in REPORTS:
             folder = Path(app.outdir) / report
             shutil.rmtree(folder, ignore_errors=True)
-            for path in found(report):
+            if files := found(report):
                 folder.mkdir(exist_ok=True)
-                shutil.copy2(path, folder)
+                for path in [*files, *pages(report)]:
+                    shutil.copy2(path, folder)
 
 
 def setup(app):
