@@ -27,14 +27,14 @@ from rocking.orbits.bifurcation_set import bifurcation_set as bifurcation_set
 from rocking.orbits.cascade import cascade as cascade
 from rocking.orbits.continuation import continue_orbit as continue_orbit
 from rocking.orbits.continuation import switch_branch as switch_branch
+from rocking.orbits.diagrams import orbit_diagram as orbit_diagram
+from rocking.orbits.diagrams import response_diagram as response_diagram
 from rocking.orbits.find_orbit import find_orbit as find_orbit
 from rocking.orbits.find_orbits import find_orbits as find_orbits
 from rocking.orbits.frequency_response import frequency_response as frequency_response
 from rocking.orbits.grazing_transition import grazing_transition as grazing_transition
 from rocking.orbits.horseshoe import horseshoe as horseshoe
-from rocking.orbits.orbit_diagram import orbit_diagram as orbit_diagram
 from rocking.orbits.orbit_manifolds import orbit_manifolds as orbit_manifolds
-from rocking.orbits.response_diagram import response_diagram as response_diagram
 from rocking.orbits.saddle_manifolds import saddle_manifolds as saddle_manifolds
 from rocking.orbits.saddle_manifolds import tangency_amplitude as tangency_amplitude
 from rocking.proof.prove import prove as prove

@@ -257,7 +257,7 @@ def test_progress_counts_every_value(monkeypatch):
 @pytest.fixture
 def begun(monkeypatch):
     """Systems whose classification has begun."""
-    module, systems = sys.modules["rocking.orbits.response_diagram"], []
+    module, systems = sys.modules["rocking.orbits.diagrams"], []
     real = module.classify
 
     def counting(system, *arguments):

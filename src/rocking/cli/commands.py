@@ -790,7 +790,7 @@ rocking frequency-response --height 2 --width 0.5 --acceleration 4 \\
     Command(
         "orbit-diagram",
         "Compute an orbit (bifurcation) diagram.",
-        function="rocking.orbits.orbit_diagram.orbit_diagram",
+        function="rocking.orbits.diagrams.orbit_diagram",
         inputs="requests.sweep",
         report="reports_orbits.ORBIT_DIAGRAM",
         progress=True,

@@ -26,9 +26,9 @@ from rocking.model.system import State, System
 if TYPE_CHECKING:
     from rocking.cli.requests import Followed, Request
     from rocking.orbits.branch import Branch
+    from rocking.orbits.diagrams import OrbitDiagram
     from rocking.orbits.find_orbits import Orbits
     from rocking.orbits.frequency_response import FrequencyResponse
-    from rocking.orbits.orbit_diagram import OrbitDiagram
 
 ROUNDING = 1e-12
 """Size of an angle or a velocity below which it is shown as 0."""

@@ -19,7 +19,7 @@ from rocking.model.validation import TooManyEvents
 from rocking.model.verdict import Outcome, Verdict
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
-from rocking.orbits.orbit_diagram import orbit_diagram
+from rocking.orbits.diagrams import orbit_diagram
 from rocking.plot import motions, style
 from rocking.response.classify import classify
 from rocking.response.spectrum import Peak, spectral_density

@@ -15,8 +15,7 @@ from rocking.model.orbit import Stability
 from rocking.model.validation import Refusal, WrongType, instance, members, one_of
 from rocking.model.verdict import Kind
 from rocking.orbits.branch import Branch
-from rocking.orbits.orbit_diagram import OrbitDiagram
-from rocking.orbits.response_diagram import ResponseDiagram
+from rocking.orbits.diagrams import OrbitDiagram, ResponseDiagram
 from rocking.plot import branch_lines, figures, style
 from rocking.plot.axes import parameter, units_of
 from rocking.plot.palette import COLOURS, LOOKS, Look, looks
