@@ -34,9 +34,9 @@ from rocking.orbits.find_orbits import find_orbits as find_orbits
 from rocking.orbits.frequency_response import frequency_response as frequency_response
 from rocking.orbits.grazing_transition import grazing_transition as grazing_transition
 from rocking.orbits.horseshoe import horseshoe as horseshoe
-from rocking.orbits.orbit_manifolds import orbit_manifolds as orbit_manifolds
-from rocking.orbits.saddle_manifolds import saddle_manifolds as saddle_manifolds
-from rocking.orbits.saddle_manifolds import tangency_amplitude as tangency_amplitude
+from rocking.orbits.manifolds import orbit_manifolds as orbit_manifolds
+from rocking.orbits.manifolds import saddle_manifolds as saddle_manifolds
+from rocking.orbits.saddles import tangency_amplitude as tangency_amplitude
 from rocking.proof.prove import prove as prove
 from rocking.records.read import example_ground_motion as example_ground_motion
 from rocking.records.read import read_ground_motion as read_ground_motion

@@ -30,7 +30,7 @@ from matplotlib.figure import Figure
 
 import rocking as rk
 from rocking.model.quantity import SYSTEM_QUANTITIES
-from rocking.orbits.saddle_manifolds import manifold_gap
+from rocking.orbits.saddles import manifold_gap
 
 SOURCE = str(Path(rk.__file__).parent)
 SEED = 20_250_801

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.orbits.saddle_manifolds import manifold_gap
+from rocking.orbits.saddles import manifold_gap
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=4.0, period=1.0, phase=0.4), restitution=0.8)
 CYCLES = 3
@@ -138,7 +138,7 @@ def test_curves_grow_with_the_cycles_and_finer_ones_have_more_points():
 
 
 def test_what_is_not_resolved_says_so(monkeypatch):
-    monkeypatch.setattr(sys.modules["rocking.orbits.saddle_manifolds"], "MAX_POINTS", 300)
+    monkeypatch.setattr(sys.modules["rocking.orbits.manifolds"], "MAX_POINTS", 300)
     rough = rk.saddle_manifolds(SYSTEM, cycles=4)
     assert not rough.unstable[0].resolved
     assert "not resolved (reduce cycles)" in str(rough)

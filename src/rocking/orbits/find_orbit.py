@@ -26,7 +26,7 @@ from rocking.orbits.event_chain import (
     quiet_phase,
     solved,
 )
-from rocking.orbits.saddle_manifolds import saddle_events
+from rocking.orbits.saddles import saddle_events
 
 MAX_PERIOD = 1000
 # Largest distance of two identical states of an orbit.

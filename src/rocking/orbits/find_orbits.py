@@ -23,7 +23,7 @@ from rocking.model.validation import instance, pair, refuse_if, whole, within
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts, orbit_from
 from rocking.orbits.parameter import identity_of
-from rocking.orbits.saddle_manifolds import response
+from rocking.orbits.saddles import response
 from rocking.proof.prove import check_provable
 from rocking.proof.prove import prove as proved
 from rocking.survey.measurement import Arrays, Measurement, Variable

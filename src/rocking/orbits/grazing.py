@@ -31,7 +31,7 @@ from rocking.orbits.event_chain import (
     sides_of,
 )
 from rocking.orbits.parameter import value_of, with_value
-from rocking.orbits.saddle_manifolds import response, saddle, saddle_events
+from rocking.orbits.saddles import response, saddle, saddle_events
 
 # Largest speed of an event that may be grazing.
 SLOW = 1e-2

@@ -6,8 +6,7 @@ from matplotlib.patheffects import Normal, Stroke
 
 from rocking.model.block import Block
 from rocking.model.validation import instance
-from rocking.orbits.orbit_manifolds import OrbitManifolds
-from rocking.orbits.saddle_manifolds import SaddleManifolds
+from rocking.orbits.manifolds import OrbitManifolds, SaddleManifolds
 from rocking.plot import style
 from rocking.plot.axes import units_of
 from rocking.plot.branch_lines import unless_there

@@ -205,7 +205,7 @@ def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> A
     --------
     heteroclinic_amplitude : Amplitude at which the gap is zero.
     melnikov_function : The gap to first order.
-    rocking.orbits.saddle_manifolds.manifold_gap : The gap of computed manifolds.
+    rocking.orbits.saddles.manifold_gap : The gap of computed manifolds.
 
     Examples
     --------
