@@ -1,10 +1,10 @@
-"""Branches of periodic orbits: their tables and rows, their halves, and their columns."""
+"""Branches of periodic orbits: their tables, rows and columns, and why they end."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 from attrs import field, frozen
@@ -93,27 +93,6 @@ def table(rows: np.ndarray, facts: np.ndarray, mirrored: bool) -> NDArray[np.voi
     points["peak"] = facts["peak"]
     points.flags.writeable = False
     return points
-
-
-Point = TypeVar("Point")
-
-
-class HalfBranch(NamedTuple, Generic[Point]):
-    """Branch in one direction from its first point."""
-
-    points: list[Point]
-    specials: list[tuple[str, Point, int]]  # kind, point, and index of the point after it
-    end: str
-
-
-def joined(
-    back: HalfBranch[Point], on: HalfBranch[Point]
-) -> tuple[tuple[Point, ...], list[tuple[str, Point, int]]]:
-    """Return the points of a branch in order, and its special points with their indices there."""
-    last = len(back.points) - 1
-    specials = [(kind, point, last + 1 - index) for kind, point, index in reversed(back.specials)]
-    specials += [(kind, point, last + index) for kind, point, index in on.specials]
-    return (*reversed(back.points), *on.points[1:]), specials
 
 
 # End of a branch at the special point from which ``switch_branch`` follows it.

@@ -16,25 +16,24 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from attrs import frozen
+from attrs import evolve, frozen
 
 from rocking.model.orbit import Orbit
-from rocking.model.system import State, System
+from rocking.model.system import State
 from rocking.model.validation import Refusal
 from rocking.model.verdict import Kind
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
-from rocking.orbits.branch import ENDS, POINT, Branch, HalfBranch, joined
+from rocking.orbits.branch import ENDS, Branch
 from rocking.orbits.event_chain import End, clocked
-from rocking.orbits.find_orbit import SAME, orbit_from
+from rocking.orbits.find_orbit import SAME
+from rocking.orbits.follow import Passage, Problem, follow, joined
 from rocking.orbits.parameter import value_of, with_value
-from rocking.orbits.special_points import GRAZING, SpecialPoint
+from rocking.orbits.special_points import GRAZING
 from rocking.response.classify import classify
 
 NARROW = 1e-13
 """Width of a bracket of a special point at which the bisection ends, relative to the range."""
-SMALLEST = 1e-3
-"""Smallest step, in units of the largest: with it the order of events may change."""
 SYMMETRIC = 1e-6
 """Largest difference of the two halves of a symmetric orbit: near a grazing it is the root of a rounding error."""
 JUMP, LOW = 0.05, 0.1
@@ -67,6 +66,13 @@ class RestingMotion(NamedTuple):
     first: tuple[float, float]  # phase and speed of the first impact
     peak: float
     angle: float  # 0, or the angle of the brace on its side
+    trace: float = 0.0  # rest erases what was before
+    determinant: float = 0.0
+
+    @property
+    def state(self) -> State:
+        """State in the middle of the last rest."""
+        return State(self.angle)
 
     @property
     def phase(self) -> float:
@@ -83,14 +89,19 @@ class RestingMotion(NamedTuple):
 
 
 @frozen
-class RestingMap:
+class RestingMap(Problem[RestingMotion]):
     """Motions over a period from rest, or from contact with a brace, for one parameter."""
 
-    system: System
-    name: str
-    period: int
     side: int  # 0 at the base, else the side of the brace
     before: float  # wait from the start to the end of the rest, in rad
+    sense: float = 1.0  # 1 or -1: towards the highest or the lowest value
+
+    SHORTEST = 5e-4
+    GROWTH = 2.0
+
+    def value(self, point: RestingMotion) -> float:
+        """Return the value of the parameter at a point."""
+        return point.value
 
     def at(self, value: float, release: float) -> RestingMotion:
         """Return the motion whose rest ends near a forcing phase."""
@@ -99,12 +110,62 @@ class RestingMap:
         motion = simulate(clocked(system, begun % math.tau), State(angle), cycles=self.period + 1)
         return held(motion, value, begun, angle, math.tau * self.period)
 
-    def orbit(self, point: RestingMotion) -> Orbit:
-        """Return the orbit of a point."""
-        system = with_value(self.system, self.name, point.value)
-        result = orbit_from(system, point.phase, State(point.angle), self.period)
-        assert result is not None
-        return result
+    def corrected(self, here: RestingMotion, length: float) -> RestingMotion | End:
+        """Return the next point, if it and the one half-way continue the branch."""
+        if here.value == (self.low if self.sense < 0.0 else self.high):
+            return End.RANGE
+        there = self.next(here, length)
+        continues = here.continues(there) and here.continues(
+            self.at(0.5 * (here.value + there.value), here.release)
+        )
+        return there if continues else End.LOST
+
+    def next(self, here: RestingMotion, length: float) -> RestingMotion:
+        """Return the motion one step from a point, within the range."""
+        return self.at(min(max(here.value + self.sense * length, self.low), self.high), here.release)
+
+    def obstacle(self, here: RestingMotion, length: float, reason: End) -> Passage[RestingMotion]:
+        """Return what follows a point from which the smallest step fails: a grazing, or the end of the branch."""
+        if reason == End.RANGE:
+            return Passage([], end=ENDS[reason])
+        there = self.next(here, length)
+        if here.continues(there):  # with the smallest step the order of events may change half-way
+            return Passage([there])
+        last, there = self.bracket(here, there)
+        before = [last] if last.value != here.value else []
+        kind = _kind(last, there)
+        if kind == SHRUNK or not there.closes or there.symmetric != last.symmetric:
+            return Passage(before, end=self.ending(kind, there))
+        return Passage([*before, there], [] if kind is None else [(kind, last, len(before))])
+
+    def bracket(self, here: RestingMotion, there: RestingMotion) -> tuple[RestingMotion, RestingMotion]:
+        """Return the last point that continues a branch, and the first one that does not, by bisection."""
+        while abs(there.value - here.value) > NARROW * (self.high - self.low):
+            middle = self.at(0.5 * (here.value + there.value), here.release)
+            if middle.value in (here.value, there.value):
+                break
+            if here.continues(middle):
+                here = middle
+            else:
+                there = middle
+        return here, self.at(there.value, here.release)  # from the nearest end of the rest
+
+    def ending(self, kind: str | None, there: RestingMotion) -> str:
+        """Return the reason for an end, with the response just beyond it."""
+        system = clocked(
+            with_value(self.system, self.name, there.value), (there.release - self.before) % math.tau
+        )
+        beyond = classify(system, State(there.angle), max_cycles=CYCLES)
+        if beyond.kind is Kind.REST:
+            return "the block no longer lifts off"
+        return f"{kind or 'the order of events changes'}; beyond: {beyond.orbit or beyond.kind}"
+
+    def at_value(
+        self, here: RestingMotion, there: RestingMotion, share: float, value: float
+    ) -> RestingMotion | None:
+        """Return the motion at a value of the parameter near a point, if it closes."""
+        result = self.at(value, here.release)
+        return result if result.closes else None
 
 
 def held(motion: Motion, value: float, begun: float, angle: float, whole: float) -> RestingMotion:
@@ -152,29 +213,19 @@ def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: f
     ValueError
         If the orbit does not close.
     """
-    way, first = _first(orbit, name)
+    way, first = _first(orbit, name, bounds, step)
     if first is None:
         allowed, remedy = "close after its period", "find it again with find_orbit"
         raise Refusal("orbit", allowed, str(orbit), remedy)
-    back, on = (_follow(way, first, bounds, sense * step, most) for sense in (-1.0, 1.0))
-    points, specials = joined(back, on)
-    return Branch(
-        name=name,
-        period=orbit.period,
-        symmetric=first.symmetric,
-        impacts=orbit.impacts,
-        brace_hits=orbit.brace_hits,
-        points=_table(points),
-        special=tuple(
-            SpecialPoint(kind, point.value, way.orbit(point), name, index, None, np.array([]))
-            for kind, point, index in specials
-        ),
-        ends=(back.end, on.end),
-        rows=RestingRows(way, points),
+    back, on = (follow(evolve(way, sense=sense), first, most) for sense in (-1.0, 1.0))
+    return joined(
+        way, back, on, symmetric=first.symmetric, impacts=orbit.impacts, brace_hits=orbit.brace_hits
     )
 
 
-def _first(orbit: Orbit, name: str) -> tuple[RestingMap, RestingMotion | None]:
+def _first(
+    orbit: Orbit, name: str, bounds: tuple[float, float], step: float
+) -> tuple[RestingMap, RestingMotion | None]:
     """Return the map of an orbit, and the orbit from its longest rest or contact."""
     events = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=2 * orbit.period).events
     rows = [
@@ -185,55 +236,10 @@ def _first(orbit: Orbit, name: str) -> tuple[RestingMap, RestingMotion | None]:
     lasts, time, angle = max(rows, default=(0.0, 0.0, 0.0))
     frequency = orbit.system.periodic.frequency
     before = min(BEFORE, 0.5 * frequency * lasts)
-    way = RestingMap(orbit.system, name, orbit.period, int(np.sign(angle)), before)
+    longest = step * (bounds[1] - bounds[0])
+    way = RestingMap(orbit.system, name, orbit.period, *bounds, longest, int(np.sign(angle)), before)
     there = way.at(value_of(orbit.system, name), (orbit.phase + frequency * time) % math.tau)
     return way, there if there.closes else None
-
-
-def _follow(
-    way: RestingMap, first: RestingMotion, bounds: tuple[float, float], step: float, most: int
-) -> HalfBranch[RestingMotion]:
-    """Follow a branch in one direction, the sign of ``step``, which is a part of the range."""
-    (low, high), points, here = bounds, [first], first
-    specials: list[tuple[str, RestingMotion, int]] = []
-    longest = step * (high - low)
-    length = longest
-    while len(points) < most:
-        if here.value == (low if step < 0.0 else high):
-            return HalfBranch(points, specials, ENDS[End.RANGE])
-        there = way.at(min(max(here.value + length, low), high), here.release)
-        if abs(length) > SMALLEST * abs(longest) and not (
-            here.continues(there) and here.continues(way.at(0.5 * (here.value + there.value), here.release))
-        ):
-            length *= 0.5
-            continue
-        if not here.continues(there):
-            last, there = _bracket(way, here, there, NARROW * (high - low))
-            if last.value != here.value:
-                points.append(last)
-            kind = _kind(last, there)
-            if kind == SHRUNK or not there.closes or there.symmetric != last.symmetric:
-                return HalfBranch(points, specials, _end(way, kind, there))
-            if kind is not None:
-                specials.append((kind, last, len(points)))
-        points.append(there)
-        here, length = there, longest if abs(2.0 * length) > abs(longest) else 2.0 * length
-    return HalfBranch(points, specials, ENDS[End.MANY])
-
-
-def _bracket(
-    way: RestingMap, here: RestingMotion, there: RestingMotion, width: float
-) -> tuple[RestingMotion, RestingMotion]:
-    """Return the last point that continues a branch, and the first one that does not, by bisection."""
-    while abs(there.value - here.value) > width:
-        middle = way.at(0.5 * (here.value + there.value), here.release)
-        if middle.value in (here.value, there.value):
-            break
-        if here.continues(middle):
-            here = middle
-        else:
-            there = middle
-    return here, way.at(there.value, here.release)  # from the nearest end of the rest
 
 
 def _kind(last: RestingMotion, there: RestingMotion) -> str | None:
@@ -245,50 +251,3 @@ def _kind(last: RestingMotion, there: RestingMotion) -> str | None:
     if min(last.slowest, there.slowest) < SLIGHT:
         return GRAZING
     return None
-
-
-def _end(way: RestingMap, kind: str | None, there: RestingMotion) -> str:
-    """Return the reason for an end, with the response just beyond it."""
-    system = clocked(with_value(way.system, way.name, there.value), (there.release - way.before) % math.tau)
-    beyond = classify(system, State(there.angle), max_cycles=CYCLES)
-    if beyond.kind is Kind.REST:
-        return "the block no longer lifts off"
-    return f"{kind or 'the order of events changes'}; beyond: {beyond.orbit or beyond.kind}"
-
-
-def _table(points: tuple[RestingMotion, ...]) -> np.ndarray:
-    """Return the public table of a branch."""
-    rows = np.zeros(len(points), POINT)
-    rows["parameter"] = [point.value for point in points]
-    rows["phase"], rows["velocity"] = np.array([point.first for point in points]).T
-    rows["stability"], rows["stable"] = "stable", True
-    rows["peak"] = [point.peak for point in points]
-    rows.flags.writeable = False
-    return rows
-
-
-class RestingRows(NamedTuple):
-    """Points of a branch of orbits that rest."""
-
-    map: RestingMap
-    points: tuple[RestingMotion, ...]
-
-    def orbit(self, index: int) -> Orbit:
-        """Return the orbit of a point."""
-        return self.map.orbit(self.points[index])
-
-    def between(self, index: int, share: float, value: float) -> Orbit | None:
-        """Return the orbit at a value of the parameter near the point a share of the way to the next one, if there is one."""
-        result = self.map.at(value, self.points[index].release)
-        return self.map.orbit(result) if result.closes else None
-
-    def section(self, phase: float) -> np.ndarray:
-        """Return Θ and Θ' of all orbits at a forcing phase in the cycles of a period, shape (points, period, 2)."""
-        out = []
-        for index in range(len(self.points)):
-            orbit = self.orbit(index)
-            forcing = orbit.system.periodic
-            motion = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=self.map.period + 1)
-            wait = ((phase - orbit.phase) % math.tau) / forcing.frequency
-            out.append(np.column_stack(motion.at(wait + forcing.period * np.arange(self.map.period))))
-        return np.array(out)

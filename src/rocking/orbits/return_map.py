@@ -1,25 +1,30 @@
-"""Return map of a periodic orbit of the full block, and the continuation of its fixed points (Keller 1977)."""
+"""Return map of a periodic orbit of the full block, and the continuation of its fixed points (Keller 1977).
+
+The unknowns are the angle and the velocity at a forcing phase, and the parameter in units of its range.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from attrs import evolve, frozen
 
-from rocking.model.orbit import Orbit, stability_of
+from rocking.model.orbit import Orbit
 from rocking.model.system import State, System, check_start
 from rocking.model.validation import Refusal
 from rocking.model.verdict import Outcome
 from rocking.motion.march_loop import monodromy
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import simulate
-from rocking.orbits.branch import ENDS, POINT, Branch, HalfBranch, joined
-from rocking.orbits.event_chain import End, clocked, multipliers_of, quiet_phase
-from rocking.orbits.find_orbit import RESTING, orbit_from
+from rocking.orbits.branch import ENDS, Branch
+from rocking.orbits.event_chain import End, clocked, quiet_phase
+from rocking.orbits.find_orbit import RESTING
+from rocking.orbits.follow import HalfBranch, Problem, follow, joined
 from rocking.orbits.parameter import value_of, with_value
-from rocking.orbits.special_points import SpecialPoint, special_points_between
+from rocking.orbits.special_points import special_points_between
 
 CONVERGED = 1e-11
 """Distance of a state from its image after a period at which Newton's method ends."""
@@ -30,11 +35,15 @@ BEYOND = 1e-9
 """Distance from the range, in its units, up to which Newton's method may leave it."""
 NEAR_EVENT = 0.1
 """Distance of an event from the section, in rad, below which the section is moved."""
+SAME_TRACE = 1e-2
+"""Largest difference of the traces at the first and the last point of a closed branch."""
+ALONG = np.array([0.0, 0.0, 1.0])
+"""Direction of the parameter."""
 SYMMETRIC = 1e-6
 """Largest distance of a state of a symmetric orbit from the mirror image of that half a period later."""
 
 
-class Point(NamedTuple):
+class FixedPoint(NamedTuple):
     """Orbit on a branch: a forcing phase, Θ and Θ' there, and the parameter in units of its range."""
 
     phase: float
@@ -47,36 +56,113 @@ class Point(NamedTuple):
     peak: float
     first: tuple[float, float]  # phase and speed of the first event
     near: float  # distance of the section from the nearest event, in rad
+    direction: np.ndarray = np.zeros(3)  # in which the branch is followed
+
+    @property
+    def state(self) -> State:
+        """State on the section."""
+        return _state(self.unknowns)
 
     @property
     def tangent(self) -> np.ndarray:
         """Direction of the branch, up to its sign."""
         return np.asarray(np.linalg.svd(self.derivative)[2][-1])
 
+    def along(self, chord: np.ndarray) -> FixedPoint:
+        """Return the point with its tangent as the direction, in the sense of a chord."""
+        tangent = self.tangent
+        return self._replace(direction=tangent if tangent @ chord >= 0.0 else -tangent)
+
+    def contacts(self) -> tuple[int, int]:
+        """Return the numbers of impacts and of brace impacts."""
+        return self.impacts, self.brace_hits
+
 
 @frozen
-class ReturnMap:
+class ReturnMap(Problem[FixedPoint]):
     """Return map of the orbits of a system over a period, for one parameter in a range."""
 
-    system: System
-    name: str
-    period: int
     symmetric: bool
-    low: float
-    high: float
 
-    def value(self, unknowns: np.ndarray) -> float:
+    SHORTEST = 1e-4
+    GROWTH = 1.5
+
+    def value(self, point: FixedPoint) -> float:
+        """Return the value of the parameter at a point."""
+        return self.value_at(point.unknowns)
+
+    def value_at(self, unknowns: np.ndarray) -> float:
         """Return the value of the parameter."""
         return float(self.low + (self.high - self.low) * min(max(unknowns[2], 0.0), 1.0))
 
-    def begun(self, phase: float, unknowns: np.ndarray) -> System:
+    def system_at(self, phase: float, unknowns: np.ndarray) -> System:
         """Return the system with its parameter, and with time measured from the section."""
-        return clocked(with_value(self.system, self.name, self.value(unknowns)), phase)
+        return clocked(with_value(self.system, self.name, self.value_at(unknowns)), phase)
+
+    def ready(self, here: FixedPoint) -> FixedPoint:
+        """Return a point, with its section moved away from the events if it is near one."""
+        if here.near >= NEAR_EVENT:
+            return here
+        moved = self.moved(here)
+        if moved is None or moved.near <= here.near:
+            return here
+        tangent = moved.tangent
+        sense = np.sign(here.direction[2] * tangent[2]) or 1.0
+        return moved._replace(direction=sense * tangent)
+
+    def corrected(self, here: FixedPoint, length: float) -> FixedPoint | End:
+        """Return the next point, or what may be the reason why there is none."""
+        near = here.unknowns + length * here.direction
+        normal = here.direction
+        if not 0.0 < near[2] < 1.0:
+            edge = 0.0 if near[2] <= 0.0 else 1.0
+            if here.unknowns[2] == edge:
+                return End.RANGE
+            near = here.unknowns + (edge - here.unknowns[2]) / here.direction[2] * here.direction
+            near[2], normal = edge, ALONG
+        there = self.solved(here.phase, near, normal)
+        if there is None:
+            grazes = self.begins(near) and self.counts(here.phase, near) != here.contacts()
+            return End.GRAZED if grazes else End.LOST
+        if normal is ALONG:
+            there = there._replace(unknowns=np.append(there.unknowns[:2], near[2]))
+        if there.contacts() != here.contacts():
+            return End.GRAZED
+        far = np.hypot(*(there.unknowns[:2] - here.unknowns[:2])) > 10.0 * length
+        # onto a branch that bifurcates from this one, or from which this one bifurcates
+        strays = self.symmetric != (self.asymmetry(there) <= SYMMETRIC)
+        return End.LOST if far or strays else there.along(there.unknowns - here.unknowns)
+
+    def tests(self, here: FixedPoint, there: FixedPoint) -> list[tuple[str, FixedPoint]]:
+        """Return the special points between two neighbouring points, with their kinds."""
+        return special_points_between(self, here, there)
+
+    def end(self, points: Sequence[FixedPoint]) -> End | None:
+        """Return the reason why a branch ends at its last point: the range, or the first point."""
+        first, last = points[0], points[-1]
+        if last.unknowns[2] in (0.0, 1.0):
+            return End.RANGE
+        return End.CLOSED if len(points) > 4 and self.closes(first, last) else None
+
+    def closes(self, first: FixedPoint, last: FixedPoint) -> bool:
+        """Return whether a branch has come back to its first point."""
+        apart, reach = abs(last.unknowns[2] - first.unknowns[2]), 0.5 * self.longest
+        if apart > reach or abs(last.trace - first.trace) > SAME_TRACE:
+            return False
+        return bool(np.abs(self.state(last, first.phase) - first.unknowns[:2]).max() < reach)
+
+    def at_value(self, here: FixedPoint, there: FixedPoint, share: float, value: float) -> FixedPoint | None:
+        """Return the point at a value of the parameter, a share of the way between two others, if there is one."""
+        near = here.unknowns.copy()
+        if there.phase == here.phase:
+            near += share * (there.unknowns - near)
+        near[2] = (value - self.low) / (self.high - self.low)
+        return self.solved(here.phase, near, ALONG)
 
     def begins(self, unknowns: np.ndarray) -> bool:
         """Return whether a motion can begin at a state: Newton's method may reach one beyond a brace or flat on the ground."""
         try:
-            check_start(with_value(self.system, self.name, self.value(unknowns)), _state(unknowns))
+            check_start(with_value(self.system, self.name, self.value_at(unknowns)), _state(unknowns))
         except ValueError:
             return False
         return True
@@ -85,7 +171,9 @@ class ReturnMap:
         """Return the state a period later; None if the block overturns before, or if no motion can begin at the state."""
         if not self.begins(unknowns):
             return None
-        motion = simulate(self.begun(phase, unknowns), _state(unknowns), cycles=self.period, record="none")
+        motion = simulate(
+            self.system_at(phase, unknowns), _state(unknowns), cycles=self.period, record="none"
+        )
         if motion.outcome is Outcome.OVERTURNED:
             return None
         return np.array([motion.final.angle, motion.final.velocity])
@@ -95,7 +183,7 @@ class ReturnMap:
         motion = self._motion(phase, unknowns)
         return motion.impacts, motion.brace_hits
 
-    def corrected(self, phase: float, near: np.ndarray, normal: np.ndarray) -> Point | None:
+    def solved(self, phase: float, near: np.ndarray, normal: np.ndarray) -> FixedPoint | None:
         """Return the orbit in the plane through a point near it, by Newton's method; None if it does not converge."""
         unknowns = self._symmetrised(phase, near)
         for _ in range(MAX_STEPS):
@@ -114,35 +202,28 @@ class ReturnMap:
             unknowns = self._symmetrised(phase, unknowns)
         return None
 
-    def moved(self, point: Point) -> Point | None:
+    def moved(self, point: FixedPoint) -> FixedPoint | None:
         """Return a point at the forcing phase farthest from its events."""
         motion = self._motion(point.phase, point.unknowns)
         phase = quiet_phase(point.phase + motion.system.periodic.frequency * motion.events["time"])
         near = np.append(self.state(point, phase), point.unknowns[2])
-        for normal in (np.array([0.0, 0.0, 1.0]), point.tangent):
-            result = self.corrected(phase, near, normal)
+        for normal in (ALONG, point.tangent):
+            result = self.solved(phase, near, normal)
             if result is not None:
                 return result
         return None
 
-    def state(self, point: Point, phase: float) -> np.ndarray:
+    def state(self, point: FixedPoint, phase: float) -> np.ndarray:
         """Return Θ and Θ' of an orbit at the next instant with a forcing phase."""
         motion = self._motion(point.phase, point.unknowns)
         wait = ((phase - point.phase) % math.tau) / motion.system.periodic.frequency
         return np.array(motion.at(wait))
 
-    def orbit(self, point: Point) -> Orbit:
-        """Return the orbit of a point."""
-        system = with_value(self.system, self.name, self.value(point.unknowns))
-        result = orbit_from(system, point.phase, _state(point.unknowns), self.period)
-        assert result is not None
-        return result
-
-    def asymmetry(self, point: Point) -> float:
+    def asymmetry(self, point: FixedPoint) -> float:
         """Return the distance of a state from that half a period later, mirrored if the period is odd."""
         return float(np.hypot(*(point.unknowns[:2] - self._half_later(point.phase, point.unknowns))))
 
-    def parent(self, point: Point) -> Point | None:
+    def parent(self, point: FixedPoint) -> FixedPoint | None:
         """Return the orbit that repeats, or mirrors itself, after half the period, at the parameter of a point near it.
 
         None if the point is not near it, or if all orbits of the branch mirror themselves.
@@ -152,7 +233,7 @@ class ReturnMap:
         odd = self.period % 2 == 1
         way = evolve(self, symmetric=odd, period=self.period if odd else self.period // 2)
         state = 0.5 * (point.unknowns[:2] + self._half_later(point.phase, point.unknowns))
-        return way.corrected(point.phase, np.append(state, point.unknowns[2]), np.array([0.0, 0.0, 1.0]))
+        return way.solved(point.phase, np.append(state, point.unknowns[2]), ALONG)
 
     def _half_later(self, phase: float, unknowns: np.ndarray) -> np.ndarray:
         """Return the state half a period later, mirrored if the period is odd: the forcing has then changed its sign."""
@@ -176,11 +257,11 @@ class ReturnMap:
         here, later, earlier = (self.image(phase, each) for each in (unknowns, after, before))
         if here is None or later is None or earlier is None:
             return None
-        of_state = monodromy(self.begun(phase, unknowns), _state(unknowns), self.period) - np.eye(2)
+        of_state = monodromy(self.system_at(phase, unknowns), _state(unknowns), self.period) - np.eye(2)
         of_parameter = (later - earlier) / (after[2] - before[2])
         return here - unknowns[:2], np.column_stack([of_state, of_parameter])
 
-    def _point(self, phase: float, unknowns: np.ndarray, derivative: np.ndarray) -> Point | None:
+    def _point(self, phase: float, unknowns: np.ndarray, derivative: np.ndarray) -> FixedPoint | None:
         """Return the point of an orbit; None if it rests or leans."""
         motion = self._motion(phase, unknowns)
         system, events = motion.system, motion.events
@@ -196,7 +277,7 @@ class ReturnMap:
         if system.restitution_table:
             determinant = float(np.linalg.det(derivative[:, :2] + np.eye(2)))
         aside = np.abs((psi + math.pi) % math.tau - math.pi)
-        return Point(
+        return FixedPoint(
             phase,
             unknowns,
             derivative,
@@ -210,56 +291,11 @@ class ReturnMap:
         )
 
     def _motion(self, phase: float, unknowns: np.ndarray) -> Motion:
-        return simulate(self.begun(phase, unknowns), _state(unknowns), cycles=self.period)
+        return simulate(self.system_at(phase, unknowns), _state(unknowns), cycles=self.period)
 
 
 def _state(unknowns: np.ndarray) -> State:
     return State(float(unknowns[0]), float(unknowns[1]))
-
-
-class MapRows(NamedTuple):
-    """Points of a branch of full blocks."""
-
-    map: ReturnMap
-    points: tuple[Point, ...]
-
-    def orbit(self, index: int) -> Orbit:
-        """Return the orbit of a point."""
-        return self.map.orbit(self.points[index])
-
-    def between(self, index: int, share: float, value: float) -> Orbit | None:
-        """Return the orbit at a value of the parameter near the point a share of the way to the next one, if there is one."""
-        here = self.points[index]
-        near = here.unknowns.copy()
-        there = self.points[index + 1] if share else here
-        if there.phase == here.phase:
-            near += share * (there.unknowns - near)
-        near[2] = (value - self.map.low) / (self.map.high - self.map.low)
-        result = self.map.corrected(here.phase, near, np.array([0.0, 0.0, 1.0]))
-        return None if result is None else self.map.orbit(result)
-
-    def section(self, phase: float) -> np.ndarray:
-        """Return Θ and Θ' of all orbits at a forcing phase in the cycles of a period, shape (points, period, 2)."""
-        out = []
-        for point in self.points:
-            begun = self.map.begun(point.phase, point.unknowns)
-            motion = simulate(begun, _state(point.unknowns), cycles=self.map.period + 1)
-            forcing = begun.periodic
-            wait = ((phase - point.phase) % math.tau) / forcing.frequency
-            out.append(np.column_stack(motion.at(wait + forcing.period * np.arange(self.map.period))))
-        return np.array(out)
-
-
-def multipliers(point: Point) -> tuple[complex, complex]:
-    """Return the Floquet multipliers of a point, the larger first."""
-    return multipliers_of(point.trace, point.determinant, mirrored=False)
-
-
-SMALLEST = 1e-4
-"""Smallest step, in units of the largest."""
-GROWTH = 1.5
-ALONG = np.array([0.0, 0.0, 1.0])
-SAME_TRACE = 1e-2
 
 
 def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, most: int) -> Branch:
@@ -271,116 +307,18 @@ def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: f
         If the orbit has no impacts or does not close.
     """
     low, high = bounds
-    way = ReturnMap(orbit.system, name, orbit.period, orbit.symmetric, low, high)
+    way = ReturnMap(orbit.system, name, orbit.period, low, high, step, orbit.symmetric)
     start = np.array(
         [orbit.state.angle, orbit.state.velocity, (value_of(orbit.system, name) - low) / (high - low)]
     )
-    first = way.corrected(orbit.phase, start, ALONG)
-    if first is None:
+    found = way.solved(orbit.phase, start, ALONG)
+    if found is None:
         allowed = "have impacts, and close after its period"
         remedy = "use a neighbouring one, or find it again with find_orbit"
         raise Refusal("orbit", allowed, str(orbit), remedy)
-    along = first.tangent if first.tangent[2] >= 0.0 else -first.tangent
-    back, on = (follow(way, first, sense * along, step, most) for sense in (-1.0, 1.0))
+    first = found.along(ALONG)
+    back, on = (follow(way, first._replace(direction=sense * first.direction), most) for sense in (-1.0, 1.0))
     if back.end == ENDS[End.CLOSED]:
         on = HalfBranch([first], [], back.end)
-    points, specials = joined(back, on)
-    return Branch(
-        name=name,
-        period=orbit.period,
-        symmetric=orbit.symmetric,
-        impacts=first.impacts,
-        brace_hits=first.brace_hits,
-        points=table(way, points),
-        special=tuple(special(way, *each) for each in specials),
-        ends=(back.end, on.end),
-        rows=MapRows(way, points),
-    )
-
-
-def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, most: int) -> HalfBranch[Point]:
-    """Follow a branch in one direction, with steps that shrink where Newton's method fails."""
-    points, specials, length = [first], [], step
-    here, end = first, End.MANY
-    while len(points) < most:
-        if here.near < NEAR_EVENT:
-            moved = way.moved(here)
-            if moved is not None and moved.near > here.near:
-                sense = np.sign(direction[2] * moved.tangent[2]) or 1.0
-                here, direction = moved, sense * moved.tangent
-        there, reason = advance(way, here, direction, length)
-        if there is None:
-            length *= 0.5
-            if length < SMALLEST * step:
-                end = reason
-                break
-            continue
-        chord = there.unknowns - here.unknowns
-        specials += [(kind, point, len(points)) for kind, point in special_points_between(way, here, there)]
-        points.append(there)
-        if there.unknowns[2] in (0.0, 1.0):
-            end = End.RANGE
-            break
-        if len(points) > 4 and closes(way, first, there, step):
-            end = End.CLOSED
-            break
-        direction = there.tangent if there.tangent @ chord >= 0.0 else -there.tangent
-        here, length = there, min(GROWTH * length, step)
-    return HalfBranch(points, specials, ENDS[end])
-
-
-def advance(way: ReturnMap, here: Point, direction: np.ndarray, length: float) -> tuple[Point | None, End]:
-    """Return the next point, or None and what may be the reason."""
-    near = here.unknowns + length * direction
-    normal = direction
-    if not 0.0 < near[2] < 1.0:
-        edge = 0.0 if near[2] <= 0.0 else 1.0
-        if here.unknowns[2] == edge:
-            return None, End.RANGE
-        near = here.unknowns + (edge - here.unknowns[2]) / direction[2] * direction
-        near[2], normal = edge, ALONG
-    there = way.corrected(here.phase, near, normal)
-    if there is None:
-        grazes = way.begins(near) and way.counts(here.phase, near) != (here.impacts, here.brace_hits)
-        return None, End.GRAZED if grazes else End.LOST
-    if normal is ALONG:
-        there = there._replace(unknowns=np.append(there.unknowns[:2], near[2]))
-    if (there.impacts, there.brace_hits) != (here.impacts, here.brace_hits):
-        return None, End.GRAZED
-    far = np.hypot(*(there.unknowns[:2] - here.unknowns[:2])) > 10.0 * length
-    # onto a branch that bifurcates from this one, or from which this one bifurcates
-    strays = way.symmetric != (way.asymmetry(there) <= SYMMETRIC)
-    return (None, End.LOST) if far or strays else (there, End.LOST)
-
-
-def closes(way: ReturnMap, first: Point, there: Point, step: float) -> bool:
-    """Return whether a branch has come back to its first point."""
-    if abs(there.unknowns[2] - first.unknowns[2]) > 0.5 * step or abs(there.trace - first.trace) > SAME_TRACE:
-        return False
-    return bool(np.abs(way.state(there, first.phase) - first.unknowns[:2]).max() < 0.5 * step)
-
-
-def table(way: ReturnMap, points: tuple[Point, ...]) -> np.ndarray:
-    """Return the public table of a branch."""
-    rows = np.empty(len(points), POINT)
-    rows["parameter"] = [way.value(point.unknowns) for point in points]
-    rows["phase"], rows["velocity"] = np.array([point.first for point in points]).T
-    rows["multipliers"] = [multipliers(point) for point in points]
-    rows["stability"] = [stability_of(point.trace, point.determinant) for point in points]
-    rows["stable"] = rows["stability"] == "stable"
-    rows["peak"] = [point.peak for point in points]
-    rows.flags.writeable = False
-    return rows
-
-
-def special(way: ReturnMap, kind: str, point: Point, index: int) -> SpecialPoint:
-    """Return a special point with its orbit."""
-    return SpecialPoint(
-        kind=kind,
-        parameter=way.value(point.unknowns),
-        orbit=way.orbit(point),
-        name=way.name,
-        index=index,
-        chain=None,
-        row=point.unknowns,
-    )
+    impacts, brace_hits = first.contacts()
+    return joined(way, back, on, symmetric=orbit.symmetric, impacts=impacts, brace_hits=brace_hits)

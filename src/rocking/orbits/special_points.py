@@ -328,7 +328,7 @@ def _agree(first: np.ndarray, second: np.ndarray, half_turns: int, whole: float)
     return bool(same.any(axis=1).all() and same.any(axis=0).all())
 
 
-class FixedPoint(Protocol):
+class MapPoint(Protocol):
     """Point of a branch of fixed points of a return map."""
 
     @property
@@ -343,7 +343,7 @@ class FixedPoint(Protocol):
     def tangent(self) -> np.ndarray: ...  # noqa: D102
 
 
-Point = TypeVar("Point", bound=FixedPoint)
+Point = TypeVar("Point", bound=MapPoint)
 
 
 class Map(Protocol[Point]):
@@ -354,7 +354,7 @@ class Map(Protocol[Point]):
     @property
     def symmetric(self) -> bool: ...  # noqa: D102
 
-    def corrected(self, phase: float, near: np.ndarray, normal: np.ndarray) -> Point | None:
+    def solved(self, phase: float, near: np.ndarray, normal: np.ndarray) -> Point | None:
         """Return the fixed point in the plane through a point near it, if it is found."""
 
     def parent(self, point: Point) -> Point | None:
@@ -399,7 +399,7 @@ def _zero(way: Map[Point], here: Point, there: Point, test: Callable[[Point], fl
         # never at an end of the bracket, so that it always shrinks
         share = min(max(first / (first - last), 0.05), 0.95)
         middle = low + share * (high - low)
-        point = way.corrected(here.phase, here.unknowns + middle * chord, chord)
+        point = way.solved(here.phase, here.unknowns + middle * chord, chord)
         if point is None:
             break
         nearest, now = point, test(point)
