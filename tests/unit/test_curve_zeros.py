@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rocking.orbits import curve_zeros
-from rocking.orbits.curve_zeros import find_brackets, locate_zero
+from rocking.orbits import curves
+from rocking.orbits.curves import find_brackets, locate_zero
 from rocking.orbits.normal_form import Reduced
 
 SEED = 5
@@ -23,7 +23,7 @@ def line(places):
 
 def of(function):
     """Test function over the first coordinate."""
-    return curve_zeros.Test("any", lambda _, at: Reduced(function(at[:, 0]), np.ones((len(at), 1))))
+    return curves.Test("any", lambda _, at: Reduced(function(at[:, 0]), np.ones((len(at), 1))))
 
 
 def pairs(gap, shift, step):

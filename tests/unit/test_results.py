@@ -172,8 +172,8 @@ def test_every_class_of_results_is_tested():
         return {each.__name__ for each in kind.__subclasses__()}.union(*map(below, kind.__subclasses__()))
 
     tested = {type(made(name)).__name__ for name in MADE}
-    # modes are a result of the command line alone, and surveys of a system are a base class
-    assert below(Result) - {"Modes", "SystemSurvey"} == tested
+    # modes are a result of the command line alone; surveys of a system, and diagrams, are base classes
+    assert below(Result) - {"Modes", "SystemSurvey", "Diagram"} == tested
 
 
 @pytest.mark.parametrize("units", ["si", "normalised"])

@@ -21,8 +21,7 @@ from rocking.orbits.codimension_two import (
     coefficients_of,
     points_of,
 )
-from rocking.orbits.curve_ends import until_parent
-from rocking.orbits.curve_zeros import CurveRows
+from rocking.orbits.curves import CurveRows, until_parent
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.grazing import touches_again
 from rocking.orbits.parameter import check_range, check_step, fixed_quantities, plane, value_of

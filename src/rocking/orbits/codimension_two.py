@@ -15,8 +15,16 @@ from attrs import field, frozen
 from rocking.model.orbit import Orbit
 from rocking.model.text import plus_minus
 from rocking.orbits import normal_form
-from rocking.orbits.curve_ends import degenerate_end, grazing_end, multiplier
-from rocking.orbits.curve_zeros import CurveRows, Test, along, find_brackets, locate_zero
+from rocking.orbits.curves import (
+    CurveRows,
+    Test,
+    along,
+    degenerate_end,
+    find_brackets,
+    grazing_end,
+    locate_zero,
+    multiplier,
+)
 from rocking.orbits.event_chain import End, Special, equations, orbit_of
 from rocking.orbits.parameter import column_of
 from rocking.orbits.special_points import FOLD, GRAZING, doubling
