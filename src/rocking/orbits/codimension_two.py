@@ -19,13 +19,14 @@ from rocking.orbits.curves import (
     CurveRows,
     Test,
     along,
+    degenerate,
     degenerate_end,
     find_brackets,
     grazing_end,
     locate_zero,
-    multiplier,
+    on_grazings,
 )
-from rocking.orbits.event_chain import End, Special, equations, orbit_of
+from rocking.orbits.event_chain import End, orbit_at
 from rocking.orbits.parameter import column_of
 from rocking.orbits.special_points import FOLD, GRAZING, doubling
 
@@ -114,7 +115,7 @@ def codimension_two_columns(
 
 def coefficients_of(rows: CurveRows) -> np.ndarray:
     """Return the coefficient of the normal form at each point of a curve, NaN on a curve of grazings."""
-    if rows.condition.kind == Special.GRAZING:
+    if rows.kind == GRAZING:
         return np.full(len(rows.rows), np.nan)
     (test,) = _tests(rows)
     values, _ = along(rows, test)
@@ -122,7 +123,7 @@ def coefficients_of(rows: CurveRows) -> np.ndarray:
     impacts, hits = rows.chain._replace(mirrored=False).counts()
     kept = parameters["restitution"] ** (2 * impacts) * parameters["brace_restitution"] ** (2 * hits)
     with np.errstate(divide="ignore"):
-        if rows.condition.kind == Special.FOLD:
+        if rows.kind == FOLD:
             return np.asarray(-values / (1.0 - kept[:, 0]))
         return np.asarray(0.5 * values / (1.0 - kept[:, 0] ** 2))
 
@@ -141,7 +142,7 @@ def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
             grazed = grazing_end(rows, inwards)
             # without a contact at the end, its place is not known
             if grazed is not None:
-                kind = "double-grazing" if _name(rows) == GRAZING else f"{_name(rows)}-grazing"
+                kind = "double-grazing" if rows.kind == GRAZING else f"{rows.kind}-grazing"
                 kind = kind if grazed.kind == GRAZING else grazed.kind
                 members.append(_point(grazed.rows, kind, grazed.row, grazed.errors, place))
         elif end == End.MERGED:
@@ -151,41 +152,24 @@ def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
     return tuple(sorted(members, key=lambda one: one.index))
 
 
-def _name(rows: CurveRows) -> str:
-    """Return the type of a curve."""
-    if rows.condition.kind == Special.GRAZING:
-        return GRAZING
-    if rows.condition.kind == Special.FOLD:
-        return FOLD
-    return doubling(rows.chain.mirrored)
-
-
 def _tests(rows: CurveRows) -> tuple[Test, ...]:
     """Return the test functions on a curve."""
-    name = _name(rows)
-    if name == FOLD:
+    if rows.kind == FOLD:
         return (Test("cusp", lambda of, at: normal_form.folds(of.chains(at))),)
-    if name != GRAZING:
-        return (Test(f"degenerate-{name}", lambda of, at: normal_form.doublings(of.chains(at))),)
-    return (
-        Test(f"{FOLD}-grazing", lambda of, at: multiplier(of, at, 1.0)),
-        Test(f"{doubling(rows.chain.mirrored)}-grazing", lambda of, at: multiplier(of, at, -1.0)),
-    )
+    if rows.kind == GRAZING:
+        return on_grazings(FOLD), on_grazings(doubling(rows.chain.mirrored))
+    return (degenerate(rows.kind),)
 
 
 def _point(
     rows: CurveRows, kind: str, row: np.ndarray, errors: tuple[float, float], index: int
 ) -> CodimensionTwoPoint:
     """Return a point of codimension two with its orbit."""
-    chain, name = rows.chain_at(row), rows.names[1]
-    there = row[:-1].copy()
-    there[-1] = row[-1]
-    *_, trace, determinant = equations(chain, name, there)
     return CodimensionTwoPoint(
         kind=kind,
         names=rows.names,
         values=(float(row[-2]), float(row[-1])),
         errors=errors,
-        orbit=orbit_of(chain, name, there, trace, determinant),
+        orbit=orbit_at(rows.chain_at(row), rows.names[1], np.append(row[:-2], row[-1])),
         index=index,
     )

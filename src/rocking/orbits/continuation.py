@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -90,21 +89,6 @@ def _both_ways(chain: Chain, name: str, row: np.ndarray) -> Beginning:
     """Return the beginning of a branch that is smooth at the grazing."""
     tangent = np.linalg.svd(equations(chain, name, row)[0])[2][-1]
     return Beginning(chain, row, (tangent, -tangent))
-
-
-def begun(
-    special: SpecialPoint, follow: Callable[[Chain, arclength.Tangent], int]
-) -> tuple[Chain, arclength.Tangent] | None:
-    """Return the chain of the other branch, and a point with a direction from which ``follow`` finds it; None without one."""
-    result = beginning(special)
-    if result is None:
-        return None
-    for off in OFFS:
-        for direction in result.directions:
-            start = arclength.Tangent(result.row + off * direction, direction)
-            if follow(result.chain, start):
-                return result.chain, start
-    return None
 
 
 def transition(special: SpecialPoint, value: float) -> str:
@@ -208,7 +192,7 @@ def continue_orbit(
     chain = chain_of(orbit)
     there = solved(chain, parameter, here, chain.phases)
     row = there.phases if there.found else np.append(chain.phases, here)
-    problem = problem_of(chain, [parameter], [(low, high)], step, [high - low])
+    problem = _problem(chain, parameter, (low, high), step)
     direction = _first_direction(problem, row, equations(chain, parameter, row)[0])
     if direction is None:
         allowed = "close after its period and lie on one branch alone"
@@ -279,7 +263,7 @@ def switch_branch(
     if special.kind == GRAZING:
         return _other_side(special, (low, high), step, most)
     chain, row = _twice(special)
-    problem = problem_of(chain, [special.name], [(low, high)], step, [high - low])
+    problem = _problem(chain, special.name, (low, high), step)
     direction = np.append(null_direction(chain, special.name, row), 0.0)
     senses = (1.0, -1.0) if special.kind == SYMMETRY_BREAKING else (1.0,)
     branches = []
@@ -293,18 +277,25 @@ def _other_side(
     special: SpecialPoint, bounds: tuple[float, float], step: float, most: int
 ) -> tuple[Branch, ...]:
     """Return the other branch at a grazing, if there is one."""
-    low, high = bounds
-
-    def follow(chain: Chain, start: arclength.Tangent, most: int) -> _Half:
-        problem = problem_of(chain, [special.name], [bounds], step, [high - low])
-        return _follow(problem, start.point, start.direction, most)
-
-    result = begun(special, lambda chain, start: len(follow(chain, start, 1).table.rows))
+    result = beginning(special)
     if result is None:
         return ()
-    half = follow(*result, most)
-    changes = transition(special, float(half.table.rows[0, -1]))
-    return (branch_of(result[0], special.name, half.table, (f"grazing: {changes}", ENDS[half.end])),)
+    problem = _problem(result.chain, special.name, bounds, step)
+    for off in OFFS:
+        for direction in result.directions:
+            start = result.row + off * direction
+            if len(_follow(problem, start, direction, 1).table.rows):
+                half = _follow(problem, start, direction, most)
+                changes = transition(special, float(half.table.rows[0, -1]))
+                ends = f"grazing: {changes}", ENDS[half.end]
+                return (branch_of(result.chain, special.name, half.table, ends),)
+    return ()
+
+
+def _problem(chain: Chain, name: str, bounds: tuple[float, float], step: float) -> arclength.Problem:
+    """Return the problem of following a chain through one parameter in a range, which is the unit of its steps."""
+    low, high = bounds
+    return problem_of(chain, [name], [bounds], step, [high - low])
 
 
 def _first_direction(problem: arclength.Problem, row: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:

@@ -19,6 +19,7 @@ from rocking.orbits.normal_form import Chains, Reduced, chains_of
 from rocking.orbits.parameter import with_value
 from rocking.orbits.special_points import (
     CONDITION,
+    FOLD,
     GRAZING,
     doubling,
     half_differences,
@@ -45,6 +46,17 @@ class CurveRows(NamedTuple):
         for name, value in zip(self.names, row[-2:].tolist(), strict=True):
             system = with_value(system, name, value)
         return self.chain._replace(system=system, phases=row[:-2])
+
+    def equations_at(self, row: np.ndarray) -> tuple[np.ndarray, np.ndarray, float, float]:
+        """Return the equations of the orbit at a point, as `equations` does."""
+        return equations(self.chain_at(row), self.names[1], np.append(row[:-2], row[-1]))
+
+    @property
+    def kind(self) -> str:
+        """Kind of the special points."""
+        if self.condition.kind == Special.GRAZING:
+            return GRAZING
+        return FOLD if self.condition.kind == Special.FOLD else doubling(self.chain.mirrored)
 
     def chains(self, rows: np.ndarray) -> Chains:
         """Return the chains at points of the curve."""
@@ -103,6 +115,24 @@ class Test(NamedTuple):
     def rotated(self) -> Test:
         """The test function in the chain that begins at the next event."""
         return self if self.later is None else self._replace(values=self.later)
+
+
+def at_each(value: Callable[[CurveRows, np.ndarray], float]) -> Values:
+    """Return the values of a test function from that at one row; their signs depend on no direction."""
+    return lambda rows, at: Reduced(np.array([value(rows, row) for row in at], float), np.ones((len(at), 1)))
+
+
+def degenerate(kind: str) -> Test:
+    """Return the test function of a degenerate period doubling or symmetry breaking: the cubic coefficient."""
+    return Test(f"degenerate-{kind}", lambda rows, at: normal_form.doublings(rows.chains(at)))
+
+
+def on_grazings(kind: str) -> Test:
+    """Return the test function of a bifurcation on a curve of grazings: a multiplier is 1, or −1."""
+    multiplier = 1.0 if kind == FOLD else -1.0
+    return Test(
+        f"{kind}-grazing", at_each(lambda rows, row: multiplier_test(*rows.equations_at(row)[2:], multiplier))
+    )
 
 
 class Bracket(NamedTuple):
@@ -281,7 +311,7 @@ def until_parent(rows: CurveRows, start: int) -> CurveRows:
     CurveRows
         Points between two such points, and those that do not lie beyond one.
     """
-    if rows.condition.kind != Special.FOLD or parent_of(rows.chain) is None:
+    if rows.kind != FOLD or parent_of(rows.chain) is None:
         return rows
     points, (first, last) = rows.rows, rows.ends
     differences = half_differences(rows.chain, points[:, :-1])
@@ -346,9 +376,7 @@ def degenerate_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     other = rows._replace(chain=parent, condition=CONDITION)
     chord = mean_halves(inwards[0], parent) - mean_halves(inwards[far], parent)
     start = other.corrected(mean_halves(inwards[far], parent), chord / np.linalg.norm(chord))
-    test = Test(
-        f"degenerate-{doubling(parent.mirrored)}", lambda of, at: normal_form.doublings(of.chains(at))
-    )
+    test = degenerate(doubling(parent.mirrored))
     reaches = [1.0 + reach * share for reach in REACHES]
     return None if start is None else zero_between(other, test, start, chord, reaches)
 
@@ -416,7 +444,7 @@ def _merged_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     Both halves of such an orbit touch there. The point is solved on the curve of grazings of the other orbits, where a multiplier
     is −1.
     """
-    if rows.condition.kind != Special.GRAZING:
+    if rows.kind != GRAZING:
         return None
     own = _locally(rows, inwards[0]).condition
     result = _half_of(rows.chain, own, inwards[0])
@@ -424,8 +452,7 @@ def _merged_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
         return None
     parent, touch, near = result
     other = rows._replace(chain=parent, condition=touch, local=True)
-    test = Test(f"{doubling(parent.mirrored)}-grazing", lambda of, at: multiplier(of, at, -1.0))
-    return _around(other, test, near)
+    return _around(other, on_grazings(doubling(parent.mirrored)), near)
 
 
 def _half_of(chain: Chain, touch: Condition, row: np.ndarray) -> tuple[Chain, Condition, np.ndarray] | None:
@@ -444,11 +471,11 @@ def _vanished_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     other orbits nearby are without bound.
     """
     chain = rows.chain_at(inwards[0])
-    links = equations(chain, rows.names[1], np.append(chain.phases, inwards[0, -1]))[1]
+    links = rows.equations_at(inwards[0])[1]
     for touch in grazing.slow_event(chain, links):
         kept, near = touch.chain, np.append(touch.chain.phases, inwards[0, -2:])
         other, test = rows._replace(chain=kept, condition=touch.condition, local=True), DEGENERATE_GRAZING
-        if rows.condition.kind == Special.GRAZING:
+        if rows.kind == GRAZING:
             own = _without(_locally(rows, inwards[0]).condition, chain, kept)
             result = _half_of(kept, touch.condition, near)
             if result is not None:
@@ -505,7 +532,7 @@ def _shortest(rows: CurveRows, chord: np.ndarray) -> np.ndarray:
 
 def _locally(rows: CurveRows, row: np.ndarray) -> CurveRows:
     """Return a curve with the time of the touch at one point, near which a second turning point may be as close."""
-    if rows.condition.kind != Special.GRAZING:
+    if rows.kind != GRAZING:
         return rows
     time = grazing.turning_time(rows.chain_at(row), rows.names[1], row, rows.condition)
     return rows._replace(condition=rows.condition._replace(time=time), local=True)
@@ -531,7 +558,7 @@ def _touches(rows: CurveRows, contact: Condition) -> Test:
 def _contacts(rows: CurveRows, row: np.ndarray) -> list[Condition]:
     """Return the turning points of the arcs at a point of a curve, the closest to the base or a brace first."""
     chain = rows.chain_at(row)
-    links = equations(chain, rows.names[1], np.append(chain.phases, row[-1]))[1]
+    links = rows.equations_at(row)[1]
     own = rows.condition
     return [
         touch.condition
@@ -542,37 +569,19 @@ def _contacts(rows: CurveRows, row: np.ndarray) -> list[Condition]:
     ]
 
 
-def _clearance_of(contact: Condition) -> Callable[[CurveRows, np.ndarray], Reduced]:
-    """Return the test function that is the clearance of a turning point."""
-
-    def values(rows: CurveRows, at: np.ndarray) -> Reduced:
-        members = [grazing.clearance(rows.chain_at(row), rows.names[1], row, contact) for row in at]
-        return Reduced(np.array(members), np.ones((len(at), 1)))
-
-    return values
+def _clearance_of(contact: Condition) -> Values:
+    """Return the values of the test function that is the clearance of a turning point."""
+    return at_each(lambda rows, row: grazing.clearance(rows.chain_at(row), rows.names[1], row, contact))
 
 
-def multiplier(rows: CurveRows, at: np.ndarray, value: float) -> Reduced:
-    """Return the test function that vanishes where a multiplier is 1, or −1."""
-    values = []
-    for row in at:
-        chain = rows.chain_at(row)
-        *_, trace, determinant = equations(chain, rows.names[1], np.append(chain.phases, row[-1]))
-        values.append(multiplier_test(trace, determinant, value))
-    return Reduced(np.array(values), np.ones((len(at), 1)))
-
-
-def _slopes_of_return(rows: CurveRows, at: np.ndarray) -> Reduced:
+def _slope_of_return(rows: CurveRows, row: np.ndarray) -> float:
     """Return the derivative of the angle at a touch by the velocity at the touch before.
 
     With the contact, this derivative is multiplied by the inverse of its speed in the trace of the return map.
     """
-    members = []
-    for row in at:
-        chain, condition = rows.chain_at(row), rows.condition
-        _, time = grazing.turning_point(chain, rows.names[1], row, condition)
-        members.append(grazing.slope_of_return(chain, rows.names[1], row, condition._replace(time=time)))
-    return Reduced(np.array(members), np.ones((len(at), 1)))
+    chain, condition = rows.chain_at(row), rows.condition
+    _, time = grazing.turning_point(chain, rows.names[1], row, condition)
+    return grazing.slope_of_return(chain, rows.names[1], row, condition._replace(time=time))
 
 
-DEGENERATE_GRAZING = Test("degenerate-grazing", _slopes_of_return)
+DEGENERATE_GRAZING = Test("degenerate-grazing", at_each(_slope_of_return))

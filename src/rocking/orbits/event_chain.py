@@ -196,13 +196,24 @@ def multipliers_of(trace: float, determinant: float, mirrored: bool) -> tuple[co
     return first, second
 
 
+def residual_of(system: System, phase: float, start: State, period: int) -> float:
+    """Return the distance between a state at a forcing phase and the state `period` cycles later."""
+    final = simulate(clocked(system, phase), start, cycles=period, record="none").final
+    return math.hypot(final.angle - start.angle, final.velocity - start.velocity)
+
+
+def orbit_at(chain: Chain, parameter: str, row: np.ndarray) -> Orbit:
+    """Return the orbit at a point of a branch, with its multipliers from the equations there."""
+    *_, trace, determinant = equations(chain, parameter, row)
+    return orbit_of(chain, parameter, row, trace, determinant)
+
+
 def orbit_of(chain: Chain, parameter: str, row: np.ndarray, trace: float, determinant: float) -> Orbit:
     """Return the orbit at a point of a branch; ``row`` contains its phases and the value of the parameter."""
     system = with_value(chain.system, parameter, float(row[-1]))
     phase = quiet_phase(np.append(row[:-1], row[:-1] + math.pi if chain.mirrored else []))
     state = states(chain, parameter, row[None], phase, 1)[0, 0]
     start = State(float(state[0]), float(state[1]))
-    final = simulate(clocked(system, phase), start, cycles=chain.period, record="none").final
     impacts, brace_hits = chain.counts()
     return Orbit(
         system=system,
@@ -213,7 +224,7 @@ def orbit_of(chain: Chain, parameter: str, row: np.ndarray, trace: float, determ
         impacts=impacts,
         brace_hits=brace_hits,
         multipliers=multipliers_of(trace, determinant, chain.mirrored),
-        residual=math.hypot(final.angle - start.angle, final.velocity - start.velocity),
+        residual=residual_of(system, phase, start, chain.period),
         simulate=simulate,
         events=_events(chain, parameter, row, phase),
     )

@@ -24,6 +24,7 @@ from rocking.orbits.event_chain import (
     multipliers_of,
     orbit_of,
     quiet_phase,
+    residual_of,
     solved,
 )
 from rocking.orbits.saddles import saddle_events
@@ -122,11 +123,10 @@ def _start_near(orbit: Orbit, guess: State) -> Orbit:
     if not cycles:
         return orbit
     turned, whole, state = math.tau * cycles, math.tau * orbit.period, orbit._after(math.tau * cycles)
-    final = simulate(clocked(orbit.system, orbit.phase), state, cycles=orbit.period, record="none").final
     return evolve(
         orbit,
         state=state,
-        residual=math.hypot(final.angle - state.angle, final.velocity - state.velocity),
+        residual=residual_of(orbit.system, orbit.phase, state, orbit.period),
         events=tuple(evolve(one, turned=(one.turned - turned) % whole) for one in orbit._events),
     )
 
@@ -225,11 +225,9 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
         return evolve(orbit, events=saddle_events(system, orbit.phase, orbit.state))
     chain = chain_of(orbit)
     result = solved(chain, "amplitude", system.periodic.amplitude, chain.phases)
-    if not result.found:
-        return _with_multipliers(orbit) if orbit.residual <= SAME else None
-    half = mirrored_half(chain._replace(phases=result.phases[:-1]))
+    half = mirrored_half(chain._replace(phases=result.phases[:-1])) if result.found else None
     if half is not None:
         chain, result = half, solved(half, "amplitude", system.periodic.amplitude, half.phases)
-        if not result.found:
-            return _with_multipliers(orbit) if orbit.residual <= SAME else None
+    if not result.found:
+        return _with_multipliers(orbit) if orbit.residual <= SAME else None
     return orbit_of(chain, "amplitude", result.phases, result.trace, result.determinant)

@@ -24,10 +24,10 @@ from rocking.orbits.event_chain import (
     Chain,
     Condition,
     Special,
-    clocked,
     equations,
-    orbit_of,
+    orbit_at,
     problem_of,
+    residual_of,
     sides_of,
 )
 from rocking.orbits.parameter import value_of, with_value
@@ -82,13 +82,11 @@ def _solve_grazing(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     solved = [each for each in touches if each is not None]
     if solved:
         touch, place = min(solved, key=lambda each: abs(each[1][-1] - row[-1]))
-        *_, trace, determinant = equations(touch.chain, parameter, place)
-        return Grazing(orbit_of(touch.chain, parameter, place, trace, determinant), touch.chain, place, touch)
+        return Grazing(orbit_at(touch.chain, parameter, place), touch.chain, place, touch)
     alone = _eventless(chain, parameter, row) if len(chain.kinds) <= 2 else None
     if alone is not None:
         return Grazing(alone, chain, np.append(row[:-1], value_of(alone.system, parameter)), None)
-    *_, trace, determinant = equations(chain, parameter, row)
-    return Grazing(orbit_of(chain, parameter, row, trace, determinant), chain, row, None)
+    return Grazing(orbit_at(chain, parameter, row), chain, row, None)
 
 
 def slow_event(chain: Chain, links: np.ndarray) -> list[GrazingContact]:
@@ -300,7 +298,6 @@ def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
     # half a forcing period away from the contact
     phase = 0.0 if longest.side > 0 else math.pi
     start = State(*saddle(system, phase, longest.side))
-    final = simulate(clocked(system, phase), start, cycles=1, record="none").final
     grown = math.exp(system.harmonic.period)
     return Orbit(
         system=system,
@@ -311,7 +308,7 @@ def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
         impacts=0,
         brace_hits=0,
         multipliers=(complex(grown), complex(1.0 / grown)),
-        residual=math.hypot(final.angle - start.angle, final.velocity - start.velocity),
+        residual=residual_of(system, phase, start, 1),
         simulate=simulate,
         events=saddle_events(system, phase, start),
     )

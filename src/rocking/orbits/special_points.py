@@ -17,7 +17,7 @@ from attrs import field, frozen
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model.orbit import Orbit
 from rocking.model.validation import WrongType
-from rocking.orbits.event_chain import IMPACT, Chain, Condition, Special, equations, orbit_of, sides_of
+from rocking.orbits.event_chain import IMPACT, Chain, Condition, Special, equations, orbit_at, sides_of
 from rocking.orbits.grazing import GrazingContact, grazing_at, special_row
 
 FOLD, SYMMETRY_BREAKING, PERIOD_DOUBLING, GRAZING = (
@@ -265,8 +265,7 @@ def _special_point(found: Found, parameter: str, beside: float) -> SpecialPoint:
     if found.kind == GRAZING:
         orbit, chain, row, touch = grazing_at(chain, parameter, row)
     else:
-        *_, trace, determinant = equations(chain, parameter, row)
-        orbit = orbit_of(chain, parameter, row, trace, determinant)
+        orbit = orbit_at(chain, parameter, row)
     return SpecialPoint(
         kind=found.kind,
         parameter=float(row[-1]),
