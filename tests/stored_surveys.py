@@ -104,6 +104,10 @@ EVERY = {
         rk.find_orbits,
         {"system": system_with(amplitude=6.0, restitution=0.9), "max_period": 6, "effort": 0.5},
     ),
+    "response diagram": (
+        rk.response_diagram,
+        {"system": system_with(restitution=0.9), "amplitude": np.linspace(1.0, 9.0, 150), "max_cycles": 2000},
+    ),
     "frequency response": (
         rk.frequency_response,
         {

@@ -92,6 +92,8 @@ BLOCK = 2_000_000
 """Largest number of entries of the matrices of a block of points."""
 SMALL = 1e-6
 """Largest value of a test function at a zero, relative to those at the points around it: a pole is no zero."""
+NEARBY, NEIGHBOURS = 1e-9, 9
+"""Distance from a zero, in units of a step, and number of points there, from which the scatter of a test function is known."""
 STEEPER = 1.5
 """Factor of the estimated slopes of a test function; at most as large that a straight line with one zero is not divided."""
 MARGIN = 0.1
@@ -251,27 +253,41 @@ def _slopes(values: np.ndarray, lengths: np.ndarray) -> np.ndarray:
 def locate_zero(rows: CurveRows, test: Test, part: Bracket) -> tuple[np.ndarray, tuple[float, float]] | None:
     """Return the point in a bracket at which a test function vanishes, and the errors of both parameters, or None.
 
-    The error is the difference from the same search in the chain that begins at the next event, which rounds differently.
+    The error has two parts: the difference from the same search in the chain that begins at the next event, which rounds
+    differently, and the scatter of the test function about a straight line, over its slope.
     """
-    row = _zero(_Step(rows, test, part.place, part.direction), part)
+    step = _Step(rows, test, part.place, part.direction)
     later = _Step(rows.rotated(), test.rotated, part.place, np.roll(part.direction, -1))
-    other = _zero(later, part)
-    if row is None or other is None:
+    one, other = _zero(step, part), _zero(later, part)
+    if one is None or other is None:
         return None
+    row, scatter = one
     ulps = 8.0 * np.finfo(float).eps * np.abs(row[-2:])
-    first, second = (2.0 * np.abs(row[-2:] - other[-2:]) + ulps).tolist()
+    first, second = (2.0 * (np.abs(row - other[0])[-2:] + scatter) + ulps).tolist()
     return row, (first, second)
 
 
-def _zero(step: _Step, part: Bracket) -> np.ndarray | None:
-    """Return the point of a step at which a test function vanishes, or None."""
+def _zero(step: _Step, part: Bracket) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return the point of a step at which a test function vanishes, and the scatter of both parameters there; None without one."""
     from scipy.optimize import brentq
 
     try:
         share = float(brentq(step.value, part.low, part.high, xtol=TOLERANCE, rtol=TOLERANCE))
-        return step.at(share) if abs(step.value(share)) <= SMALL * part.size else None
+        row = step.at(share)
+        small = abs(step.value(share)) <= SMALL * part.size
+        return (row, _scatter(step, share)) if small else None
     except (_LostError, ValueError):
         return None
+
+
+def _scatter(step: _Step, share: float) -> np.ndarray:
+    """Return the scatter of both parameters of a zero, from the values of the test function around it."""
+    offsets = NEARBY * np.linspace(-1.0, 1.0, NEIGHBOURS)
+    values = np.array([step.value(share + offset) for offset in offsets.tolist()])
+    line = np.polyfit(offsets, values, 1)
+    spread = math.sqrt(float(np.square(values - np.polyval(line, offsets)).sum()) / (NEIGHBOURS - 2))
+    start, stop = step.rows.rows[step.place : step.place + 2, -2:]
+    return np.abs(stop - start) * (spread / abs(float(line[0])))
 
 
 LOST_WITHIN = 0.1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from itertools import repeat
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -23,7 +23,8 @@ from rocking.model.validation import TooManyEvents, instance, one_of, whole
 from rocking.model.verdict import Kind, Verdict
 from rocking.motion.march_loop import start_march
 from rocking.orbits.parameter import coordinate_of, fixed_quantities, kinds_of, varied_parameter, with_value
-from rocking.response.classify import MeanImpacts, budget, classify, mean_impacts
+from rocking.orbits.verdicts import verdicts_over
+from rocking.response.classify import budget, mean_impacts
 from rocking.response.rotation_number import RotationNumber
 
 if TYPE_CHECKING:
@@ -499,7 +500,10 @@ def response_diagram(
     critical_angle: ArrayLike | None = None,
     max_cycles: int = 100_000,
     max_period: int = 64,
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
     progress: bool = False,
+    repair: bool = False,
 ) -> ResponseDiagram:
     """Compute a response diagram: type of response, exponent and rotation number over the values of a parameter.
 
@@ -517,8 +521,8 @@ def response_diagram(
         Exactly one of them, the varied parameter: a number, or values in any order, at most 100,000. Equal ones count once.
     max_cycles, max_period : int
         As in `classify`. Default: 100,000 and 64.
-    progress : bool
-        Whether to show the progress on stderr. Default: False.
+    store, executor, progress, repair
+        As in `parametric_map`, for the verdicts. The rotation numbers are computed anew.
 
     Returns
     -------
@@ -569,24 +573,30 @@ def response_diagram(
     parameter, ordered = _varied(system, progress, MAX_VALUES, *values)
     limits = budget(max_cycles, max_period)
     start = State() if start is None else start
-    systems = _systems(system, start, parameter, ordered)
-
-    def respond(each: System) -> tuple[Verdict, MeanImpacts]:
-        verdict = classify(each, start, max_cycles, max_period)
-        return verdict, mean_impacts(verdict)
-
-    rows = []
-    with ThreadPoolExecutor() as pool, Bar(len(systems), "response diagram", shown=progress) as bar:
-        for pair in pool.map(respond, systems):
-            rows.append(pair)
+    _systems(system, start, parameter, ordered)
+    verdicts = verdicts_over(
+        system,
+        start,
+        parameter,
+        ordered,
+        max_cycles,
+        max_period,
+        store,
+        executor,
+        progress=progress,
+        repair=repair,
+    )
+    means = []
+    with ThreadPoolExecutor() as pool, Bar(len(verdicts), "rotation numbers", shown=progress) as bar:
+        for mean in pool.map(mean_impacts, verdicts):
+            means.append(mean)
             bar.advance(1)
-    verdicts, means = zip(*rows, strict=True)
     return ResponseDiagram(
         system=system,
         parameter=parameter,
         values=ordered,
         start=start,
-        verdicts=verdicts,
+        verdicts=tuple(verdicts),
         rotation=np.array([mean.value for mean in means]),
         rotation_error=np.array([mean.error for mean in means]),
         rotation_numbers=tuple(mean.rotation for mean in means),
