@@ -21,6 +21,13 @@ def line(places):
     return found
 
 
+def shown(places):
+    """The same points, whose first coordinate is also that of both parameters."""
+    found = line(places)
+    found.rows[:, 1:] = places[:, None]
+    return found
+
+
 def of(function):
     """Test function over the first coordinate."""
     return curves.Test("any", lambda _, at: Reduced(function(at[:, 0]), np.ones((len(at), 1))))
@@ -72,3 +79,14 @@ def test_a_pole_is_no_zero():
     places = np.linspace(0.0, 1.0, 8)
     test = of(lambda x: 1.0 / (x - 0.4))
     assert all(locate_zero(line(places), test, part) is None for part in find_brackets(line(places), test))
+
+
+def test_error_of_a_zero_covers_the_rounding_of_the_test_function():
+    """A function that rounds to 1e-12 has zeros anywhere within that distance; two searches may find the same one by chance."""
+    random = np.random.default_rng(SEED)
+    places = np.linspace(0.0, 1.0, 3)
+    for zero in random.uniform(0.05, 0.95, 60):
+        test = of(lambda x, zero=zero: 3.0 * (x - zero) + 3e-12 * np.sin(1e13 * x))
+        (part,) = find_brackets(shown(places), test)
+        row, (error, _) = locate_zero(shown(places), test, part)
+        assert abs(row[0] - zero) < error < 2e-11

@@ -1,8 +1,8 @@
 """Response diagrams against single verdicts, closed forms, and turns of the motion about the origin."""
 
 import math
-import sys
 from dataclasses import dataclass
+from pkgutil import resolve_name as resolve
 
 import attrs
 import numpy as np
@@ -254,22 +254,10 @@ def test_progress_counts_every_value(monkeypatch):
     assert sum(done) == 37
 
 
-@pytest.fixture
-def begun(monkeypatch):
-    """Systems whose classification has begun."""
-    module, systems = sys.modules["rocking.orbits.diagrams"], []
-    real = module.classify
-
-    def counting(system, *arguments):
-        systems.append(system)
-        return real(system, *arguments)
-
-    monkeypatch.setattr(module, "classify", counting)
-    return systems
-
-
-def test_value_that_does_not_take_the_start_is_refused_before_any_verdict(begun):
+def test_value_that_does_not_take_the_start_is_refused_before_any_verdict(monkeypatch):
     """At θcr = 1 a block lies flat at Θ = π/2."""
+    begun = []
+    monkeypatch.setattr("rocking.orbits.diagrams.verdicts_over", lambda *given, **more: begun.append(given))
     with pytest.raises(
         ValueError, match=r"^angle must lie within ±1\.5708, where the block lies flat; got 2"
     ):
@@ -277,14 +265,20 @@ def test_value_that_does_not_take_the_start_is_refused_before_any_verdict(begun)
     assert begun == []
 
 
-def test_no_value_begins_after_an_interruption(begun, monkeypatch):
-    def interrupted(*_):
-        raise KeyboardInterrupt
+@pytest.mark.parametrize("place", ["verdicts.batch.classify_one", "diagrams.mean_impacts"])
+def test_no_value_begins_after_an_interruption(place, monkeypatch):
+    begun, real = [], resolve(f"rocking.orbits.{place}")
 
-    monkeypatch.setattr(Bar, "advance", interrupted)
+    def counting(*given):
+        begun.append(given)
+        if len(begun) == 20:
+            raise KeyboardInterrupt
+        return real(*given)
+
+    monkeypatch.setattr(f"rocking.orbits.{place}", counting)
     with pytest.raises(KeyboardInterrupt):
-        rk.response_diagram(UNDAMPED, amplitude=np.linspace(1.5, 3.0, 2_000))
-    assert len(begun) < 500
+        rk.response_diagram(UNDAMPED, amplitude=np.linspace(1.5, 3.0, 500), max_cycles=100)
+    assert len(begun) < 300
 
 
 FINITE = rk.System(rk.PiecewiseLinear([0.0, 2.0, 0.0], step=1.0), restitution=0.9)

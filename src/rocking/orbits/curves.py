@@ -92,7 +92,7 @@ BLOCK = 2_000_000
 """Largest number of entries of the matrices of a block of points."""
 SMALL = 1e-6
 """Largest value of a test function at a zero, relative to those at the points around it: a pole is no zero."""
-NEARBY, NEIGHBOURS = 1e-9, 9
+NEARBY, NEIGHBOURS = 1e-9, 13
 """Distance from a zero, in units of a step, and number of points there, from which the scatter of a test function is known."""
 STEEPER = 1.5
 """Factor of the estimated slopes of a test function; at most as large that a straight line with one zero is not divided."""
@@ -263,7 +263,7 @@ def locate_zero(rows: CurveRows, test: Test, part: Bracket) -> tuple[np.ndarray,
         return None
     row, scatter = one
     ulps = 8.0 * np.finfo(float).eps * np.abs(row[-2:])
-    first, second = (2.0 * (np.abs(row - other[0])[-2:] + scatter) + ulps).tolist()
+    first, second = (2.0 * np.abs(row - other[0])[-2:] + 3.0 * scatter + ulps).tolist()
     return row, (first, second)
 
 
