@@ -1,6 +1,7 @@
 """The explorer in a real browser."""
 
 import csv
+import io
 import itertools
 import json
 import re
@@ -601,3 +602,23 @@ def test_text_stands_out_from_its_ground(visit, scheme):
     visitor.open()
     visitor.finished()
     assert visitor.page.evaluate(CONTRAST) == []
+
+
+EDGES = """() => [...document.querySelectorAll(".plot")].map(each => each.getBoundingClientRect())
+    .map(({ left, top, width, height }) => [left, top, width, height])"""
+
+
+@pytest.mark.parametrize("page", ["", "ground-motion"])
+def test_change_of_colours_leaves_no_line_at_the_edges_of_a_figure(visit, page):
+    visitor = visit(1280, 1400)
+    visitor.open(page)
+    visitor.finished()
+    visitor.page.click("#theme")
+    visitor.page.wait_for_timeout(500)
+    screen = Image.open(io.BytesIO(visitor.page.screenshot())).convert("RGB")
+    paper = screen.getpixel((2, 1390))
+    for left, top, _, height in visitor.page.evaluate(EDGES):
+        column = [screen.getpixel((round(left) + across, round(top + height) - 12)) for across in (0, 1)]
+        row = [screen.getpixel((round(left) + 3, round(top) + down)) for down in (0, 1)]
+        assert set(column + row) == {paper}
+    visitor.is_content()

@@ -237,9 +237,16 @@ function lines(table) {
   return [names.join(","), ...rows, ""].join("\n");
 }
 
+// Figure as a file, whose border is not transparent as on the page.
+function picture(name, kind) {
+  const style = document.documentElement.style, border = "--bk-border-fill-color";
+  style.setProperty(border, "var(--paper)");
+  try { return Bokeh.index.find_one(models[name]).export(kind, true); } finally { style.removeProperty(border); }
+}
+
 for (const button of all("[data-save]")) button.onclick = async () => {
   const name = find("which").value, kind = button.dataset.save;
-  if (kind !== "csv") return save(name, await Bokeh.index.find_one(models[name]).export(kind, true).to_blob(), kind);
+  if (kind !== "csv") return save(name, await picture(name, kind).to_blob(), kind);
   const data = table(name);
   if (data) save(name, new Blob([lines(data)], { type: "text/csv" }), kind);
   else say("The figure is not computed yet: save it when it is.");
