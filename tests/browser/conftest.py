@@ -108,6 +108,11 @@ class Visitor:
             self.page.wait_for_timeout(20)
 
     def text(self, name):
+        """Return the text of an element; what is folded is unfolded."""
+        self.page.evaluate(
+            "name => { const folded = document.getElementById(name).closest('details'); if (folded) folded.open = true; }",
+            name,
+        )
         return self.page.inner_text(f"#{name}")
 
     def data(self, name):

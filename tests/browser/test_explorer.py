@@ -277,6 +277,7 @@ def test_block_in_metres_stands_on_the_map_with_axes_in_si(visit):
 
 # Controls whose middle belongs to something else
 COVERED = """within => [...document.querySelector(within).querySelectorAll("button, input, select")].filter(each => {
+    each.scrollIntoView({ block: "center" });
     const box = each.getBoundingClientRect();
     return document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2) !== each;
 }).map(each => each.outerHTML)"""
@@ -319,9 +320,15 @@ def test_fields_have_words_beside_their_symbols_and_room_for_what_they_hold(visi
     )
     labels = visitor.page.locator("#fields label").all_inner_texts()
     assert [" ".join(label.split()) for label in labels] == [
-        "A amplitude", "T period", "e restitution", "φ phase", "Θ₀ angle", "Θ′₀ velocity", "Θb brace angle", "r brace restitution",
-        "θcr critical angle", "first cycle", "cycles",
+        "e restitution", "θcr critical angle rad", "A amplitude g θcr", "T period 1/α", "φ phase rad", "Θ₀ initial angle θcr",
+        "Θ′₀ initial velocity α θcr", "Θb brace angle θcr", "r restitution", "first cycle", "cycles",
     ]  # fmt: skip
+    headings = visitor.page.locator("#fields legend").all_inner_texts()
+    assert headings == ["Block", "Base motion", "Start", "Braces", "Cycles shown"]
+    assert (
+        visitor.page.evaluate("[...document.querySelectorAll('#fields label')].filter(each => !each.title)")
+        == []
+    )
     assert visitor.page.evaluate(CUT) == []
     assert visitor.page.evaluate("document.documentElement.scrollWidth") <= width
     visitor.page.fill("#velocity", "x")
@@ -622,3 +629,49 @@ def test_change_of_colours_leaves_no_line_at_the_edges_of_a_figure(visit, page):
         row = [screen.getpixel((round(left) + 3, round(top) + down)) for down in (0, 1)]
         assert set(column + row) == {paper}
     visitor.is_content()
+
+
+PLACES = """Object.fromEntries(["verdict", "scene", "map", "fields", "block"].map(name => {
+    const { left, top, right, bottom } = document.getElementById(name).getBoundingClientRect();
+    return [name, { left, top, right, bottom, high: bottom - top, wide: right - left }]; }))"""
+
+
+def test_first_screen_of_a_phone_has_the_verdict_in_words_and_the_moving_block(visit):
+    visitor = visit(390, 844)
+    visitor.open()
+    places = visitor.page.evaluate(PLACES)
+    assert places["verdict"]["bottom"] <= places["scene"]["top"] < places["scene"]["bottom"] <= 844
+    assert places["scene"]["bottom"] <= places["map"]["top"] < 844
+    assert places["map"]["bottom"] <= places["fields"]["top"]
+    assert visitor.page.is_visible("#sentence")
+
+
+@pytest.mark.parametrize("page", ["", "ground-motion"])
+def test_moving_block_is_as_large_as_the_map_and_beside_it(visit, page):
+    visitor = visit()
+    visitor.open(page)
+    places = visitor.page.evaluate(PLACES)
+    assert (
+        places["fields"]["right"] <= places["map"]["left"] < places["map"]["right"] <= places["scene"]["left"]
+    )
+    assert places["block"]["high"] >= 0.9 * places["map"]["high"]
+    assert places["scene"]["wide"] >= 0.9 * places["map"]["wide"]
+    assert places["scene"]["bottom"] <= 800
+
+
+@pytest.mark.parametrize("page", ["", "ground-motion"])
+def test_numbers_of_a_verdict_are_folded_behind_its_sentence_and_not_clipped(visit, page):
+    visitor = visit()
+    visitor.open(page)
+    assert not visitor.page.is_visible("#facts")
+    assert visitor.page.inner_text("#sentence").startswith("The block ")
+    assert re.fullmatch(r"Numbers and evidence: (verified|certified)", visitor.page.inner_text("summary"))
+    visitor.page.click("summary")
+    assert visitor.page.is_visible("#evidence")
+    assert (
+        visitor.page.evaluate(
+            "(({ scrollHeight, clientHeight }) => scrollHeight - clientHeight)(document.getElementById('verdict'))"
+        )
+        == 0
+    )
+    visitor.see(f"numbers-{page}")

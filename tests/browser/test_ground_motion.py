@@ -32,7 +32,7 @@ def figure(visitor, name):
 
 
 def facts(visitor, name="facts"):
-    return dict(re.findall(r"(.+)\n(.+)", visitor.page.inner_text(f"#{name}")))
+    return dict(re.findall(r"(.+)\n(.+)", visitor.text(name)))
 
 
 def settled(visitor, act):

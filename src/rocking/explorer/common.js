@@ -141,6 +141,7 @@ function write(message) {
   find("kind").textContent = message.kind;
   find("verdict").querySelector("i").style.background = message.colour;
   find("sentence").textContent = message.sentence ?? "";
+  find("level").textContent = message.level ?? "";
   find("facts").replaceChildren(...rows(message.facts));
   find("evidence").textContent = message.evidence;
 }
@@ -295,11 +296,12 @@ find("theme").onclick = () => {
 let film = null, clock = 0, last = 0;
 const inks = {}; // read once per theme, because reading a style in a frame forces a recalculation of all styles
 
-// Factor that makes a small angle visible, in the units of the critical angle.
-function magnified(angle, critical) {
+// Set the film: angle in the units of the critical angle, drawn with a factor that makes a small angle visible.
+function shoot(angle, critical, height, others) {
   let peak = 0;
   for (const value of angle) peak = Math.max(peak, Math.abs(value));
-  return Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12);
+  const angles = Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12), turn = Math.min(peak * critical * angles, Math.PI / 2);
+  film = { angle, critical, height, angles, wide: height * Math.max(1.7, 2.2 * Math.sin(turn) + 0.3), ...others };
 }
 
 function now() {
@@ -318,7 +320,7 @@ function frame() {
   ink.setTransform(sharp, 0, 0, sharp, 0, 0);
   ink.clearRect(0, 0, wide, high);
   if (!film?.time.length) return;
-  const scale = Math.min((high - 30) / film.height, wide / (2.6 * film.height)), floor = high - 16;
+  const scale = Math.min((high - 34) / film.height, wide / film.wide), floor = high - 16;
   const displaced = film.displacement(clock) * film.moves * scale;
   const turn = Math.max(Math.min(now() * film.critical * film.angles, Math.PI / 2), -Math.PI / 2), half = film.width * scale / 2, tall = film.height * scale;
   ink.strokeStyle = inks.line;

@@ -171,25 +171,32 @@ def written(value: Any) -> str:
 
 @frozen
 class Field:
-    """Field of a view: its reader, label, symbol and description."""
+    """Field of a view: its reader, its label in messages, and what the page says: symbol, words, unit, description, group."""
 
     read: Reader
     label: str = ""
     symbol: str = ""
+    words: str = ""
+    unit: str = ""
     title: str = ""
+    group: str = ""
 
 
-def entry(default: Any, read: Reader, label: str = "", symbol: str = "", title: str = "") -> Any:
+def entry(default: Any, read: Reader, label: str = "", **shown: str) -> Any:
     """Return an attribute of a view that is a field."""
-    return attrs.field(default=default, metadata={"field": Field(read, label, symbol, title)})
+    return attrs.field(default=default, metadata={"field": Field(read, label, **shown)})
 
 
-def quantity(
-    of: Quantity, default: Any, read: Reader | None = None, symbol: str = "", title: str = ""
-) -> Any:
-    """Return an attribute of a view that is a field of a quantity, with its range, label, symbol and description."""
-    title = title or of.help.partition(" Default:")[0].rstrip(".")
-    return entry(default, read or number(*of.range), of.name.replace("_", " "), symbol or of.symbol, title)
+def quantity(of: Quantity, default: Any, read: Reader | None = None, **shown: str) -> Any:
+    """Return an attribute of a view that is a field of a quantity, with its range, label, symbol, unit and description."""
+    label = of.name.replace("_", " ")
+    described = {
+        "symbol": of.symbol,
+        "words": label,
+        "unit": of.unit.replace("theta_cr", "θcr").replace("alpha", "α"),
+        "title": of.help.partition(" Default:")[0].rstrip("."),
+    }
+    return entry(default, read or number(*of.range), label, **described | shown)
 
 
 def axis(default: Span, low: float, high: float, fits: Callable[[Span], bool], ends: str) -> Any:
@@ -203,6 +210,8 @@ class View:
 
     LINKED: ClassVar[tuple[str, ...]] = ()
     """Fields that a link always holds; it holds others if they differ from their defaults."""
+    GROUPS: ClassVar[tuple[str, ...]] = ()
+    """Headings of the groups of fields, from top to bottom."""
     LABELS: ClassVar[Mapping[str, str]] = {}
     """Labels of arguments that are not fields, in messages."""
 
@@ -216,6 +225,13 @@ class View:
         """Return the fields by name."""
         metadata = {each.name: each.metadata for each in attrs.fields(cls)}
         return {name: each["field"] for name, each in metadata.items() if "field" in each}
+
+    @classmethod
+    @cache
+    def groups(cls) -> dict[str, dict[str, Field]]:
+        """Return the fields that the page shows, by group and name."""
+        declared = cls.declared().items()
+        return {group: {name: each for name, each in declared if each.group == group} for group in cls.GROUPS}
 
     @classmethod
     @cache

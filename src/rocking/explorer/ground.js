@@ -155,10 +155,9 @@ function legend(message) {
 
 function scene() {
   const { time, angle: degrees } = columns("history"), { height, width, critical } = shown.block;
-  const angle = Array.from(degrees, value => value * Math.PI / 180 / critical), angles = magnified(angle, critical);
-  film = { time, angle, height, width, critical, angles, moves: 1, displacement: () => 0, speed: 1 };
+  shoot(Array.from(degrees, value => value * Math.PI / 180 / critical), critical, height, { time, width, moves: 1, displacement: () => 0, speed: 1 });
   clock = Math.min(clock, time[time.length - 1] ?? 0);
-  find("scale-note").textContent = angles > 1.05 ? `angle × ${angles.toPrecision(2)}` : "true to scale";
+  find("scale-note").textContent = film.angles > 1.05 ? `angle × ${film.angles.toPrecision(2)}` : "true to scale";
   frame();
 }
 

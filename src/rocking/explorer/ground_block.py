@@ -84,7 +84,21 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
         facts.append(("impacts", f"{motion.impacts:,}"))
     if motion.overturning is not None:
         facts.append(("overturning certain from", f"{block.seconds(motion.overturning.time):.4g} s"))
-    return {"kind": kind, "colour": colour, "facts": facts, **_evidence(motion, block)}
+    return {
+        "kind": kind,
+        "sentence": SENTENCES[kind],
+        "colour": colour,
+        "facts": facts,
+        **_evidence(motion, block),
+    }
+
+
+SENTENCES = {
+    "stands still": "The base motion does not lift the block.",
+    "rocks and stands": "The block rocks, and does not fall over.",
+    "overturns": "The block falls over.",
+}
+"""What an outcome means for the block."""
 
 
 def _evidence(motion: Motion, block: Block) -> dict[str, Any]:
@@ -94,6 +108,7 @@ def _evidence(motion: Motion, block: Block) -> dict[str, Any]:
             "margin": "",
             "certified": "Full equation of motion: the effect of rounding on the outcome is not assessed.",
             "decided": True,
+            "level": "",
             "validity": _validity(motion, block),
         }
     certified = "Certified: no rounding error can have changed the outcome."
@@ -105,6 +120,7 @@ def _evidence(motion: Motion, block: Block) -> dict[str, Any]:
         "margin": margin_in_words(motion, block),
         "certified": certified,
         "decided": bool(motion.certified),
+        "level": ": certified" if motion.certified else ": not certified",
         "validity": _validity(motion, block),
     }
 

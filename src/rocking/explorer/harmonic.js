@@ -204,9 +204,9 @@ function scene() {
   const critical = Math.atan2(width, height), radius = Math.hypot(height, width) / 2;
   // displacement amplitude a_x/ω² in the units of height and width: A g θcr/(Ω α)², α² = 3g/4R
   const base = amplitude * critical * (4 * radius / 3) / frequency ** 2;
-  film = { time, angle, height, width, critical,
+  shoot(angle, critical, height, { time, width,
     displacement: at => -base * Math.cos(frequency * at + Number(fields.phase)), speed: Math.max(period / 1.2, (time[time.length - 1] - time[0]) / 40),
-    angles: magnified(angle, critical), moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) };
+    moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) });
   clock = time[0] ?? 0;
   const notes = [];
   if (film.angles > 1.05) notes.push(`angle × ${film.angles.toPrecision(2)}`);

@@ -274,7 +274,7 @@ PAGE = Page(
         "levels": [each.level for each in Criterion],
     },
     variables={
-        "fields": {name: each for name, each in HarmonicView.declared().items() if each.title},
+        "fields": HarmonicView.groups(),
         "labels": HarmonicView.labels(),
         "curves": harmonic_maps.NAMES,
         "groups": presets.GROUPS,

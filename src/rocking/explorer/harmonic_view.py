@@ -39,6 +39,9 @@ SAME = 1e-3
 LATEST, MAX_SHOWN = 100_000, 200
 """Largest first cycle, and largest number of cycles, of the time history."""
 
+GROUPS = BLOCK, SHAKING, START, BRACES, CYCLES = "Block", "Base motion", "Start", "Braces", "Cycles shown"
+"""Groups of fields."""
+
 
 def closest(span: Span) -> float:
     """Return the smallest length of a range here whose points double precision can resolve."""
@@ -67,28 +70,43 @@ class HarmonicView(View):
     """
 
     LINKED: ClassVar[tuple[str, ...]] = ("amplitude", "period", "restitution")
+    GROUPS: ClassVar[tuple[str, ...]] = GROUPS
     LABELS: ClassVar[Mapping[str, str]] = {"acceleration_g": "acceleration", "frequency_hz": "frequency"}
 
-    amplitude: float = quantity(quantities.AMPLITUDE, 2.0)
-    period: float = quantity(quantities.PERIOD, 1.0)
-    restitution: float = quantity(quantities.RESTITUTION, 0.925)
-    phase: float = quantity(quantities.PHASE, 0.0)
-    angle: float = quantity(quantities.ANGLE, 0.0, None, "Θ₀", "Initial angle Θ₀, in units of θcr")
+    amplitude: float = quantity(quantities.AMPLITUDE, 2.0, group=SHAKING)
+    period: float = quantity(quantities.PERIOD, 1.0, group=SHAKING)
+    restitution: float = quantity(quantities.RESTITUTION, 0.925, group=BLOCK)
+    phase: float = quantity(quantities.PHASE, 0.0, group=SHAKING)
+    angle: float = quantity(
+        quantities.ANGLE,
+        0.0,
+        symbol="Θ₀",
+        words="initial angle",
+        title="Initial angle Θ₀, in units of the critical angle θcr",
+        group=START,
+    )
     velocity: float = quantity(
-        quantities.VELOCITY, 0.0, None, "Θ′₀", "Initial angular velocity Θ′₀, in units of α θcr"
+        quantities.VELOCITY,
+        0.0,
+        symbol="Θ′₀",
+        words="initial velocity",
+        title="Initial angular velocity Θ′₀, in units of α θcr",
+        group=START,
     )
     brace_angle: float | None = quantity(
         quantities.BRACE_ANGLE,
         None,
         optional(number(*quantities.BRACE_ANGLE.range)),
-        title="Brace angle Θb, in units of θcr; empty for no braces",
+        title="Brace angle Θb, in units of the critical angle θcr; empty for no braces",
+        group=BRACES,
     )
-    brace_restitution: float = quantity(quantities.BRACE_RESTITUTION, 1.0)
+    brace_restitution: float = quantity(quantities.BRACE_RESTITUTION, 1.0, words="restitution", group=BRACES)
     critical_angle: float | None = quantity(
         quantities.CRITICAL_ANGLE,
         None,
         optional(number(*quantities.CRITICAL_ANGLE.range)),
         title="Critical angle θcr in rad, for the full equation of motion; empty for a slender block and small angles",
+        group=BLOCK,
     )
     amplitudes: Span = axis(Span(0.0, 16.0), *quantities.AMPLITUDE.range, resolved, ENDS)
     periods: Span = axis(Span(0.2, 3.0), *quantities.PERIOD.range, resolved, ENDS)
@@ -99,11 +117,15 @@ class HarmonicView(View):
         0,
         count(0, LATEST),
         "first cycle",
+        words="first cycle",
+        group=CYCLES,
         title="First forcing cycle shown in the time history and the phase portrait",
     )
     cycles: int = entry(
         30,
         count(1, MAX_SHOWN),
+        words="cycles",
+        group=CYCLES,
         title="Number of forcing cycles shown in the time history and the phase portrait",
     )
     curves: tuple[str, ...] = entry((), words(*theory_curves.CURVES))

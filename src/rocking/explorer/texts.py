@@ -46,6 +46,7 @@ def verdict(result: Verdict, block: Block | None) -> dict[str, Any]:
         "sentence": sentence(result),
         "colour": palette.look_of(result).colour,
         "facts": facts,
+        "level": f": {result.evidence.level}",
         "evidence": str(result.evidence),
     }
 
