@@ -59,6 +59,10 @@ def test_page_opens_without_complaint_and_asks_no_other_host(ground, width, heig
     assert visitor.page.evaluate("document.documentElement.scrollWidth") <= width
     assert visitor.text("kind") == "rocks and stands"
     assert visitor.text("pga") == "PGA 0.532 g"
+    assert visitor.text("sentence").endswith("The base accelerates 5 times as much as in the record.")
+    assert visitor.text("ground-name") == "5 × San Francisco, 1295 Shafter, F 360°"
+    title = visitor.page.evaluate("models.base.title.text")
+    assert title == "Acceleration of the base: 5 × San Francisco, 1295 Shafter, F 360°"
     visitor.see(f"ground-{width}-{scheme}")
     visitor.is_content()
 
@@ -151,7 +155,11 @@ def test_synthetic_motion_is_that_of_the_package(ground):
     motion = rk.synthetic_ground_motions(3, seed=1)[1]
     drawn = figure(visitor, "base")["acceleration"]
     assert np.abs(drawn).max() == pytest.approx(5 * motion.pga / 9.80665, rel=1e-9)
+    assert visitor.text("ground-name") == "5 × synthetic 2"
+    visitor.page.fill("#scale", "1")
+    settled(visitor, lambda: visitor.page.press("#scale", "Enter"))
     assert visitor.text("ground-name") == "synthetic 2"
+    assert "times" not in visitor.text("sentence")
 
 
 def drop(visitor, name, data):

@@ -24,7 +24,8 @@ function show(view) {
   find("pga").textContent = `PGA ${rounded(view.ground.pga * view.fields.scale, 3)} g`;
   find("link-text").textContent = location.href;
   find("link-note").hidden = view.fields.source !== "file";
-  find("ground-name").textContent = view.ground.name;
+  find("ground-name").textContent = view.ground.title;
+  models.base.title.setv({ text: `Acceleration of the base: ${view.ground.title}` }, { sync: false });
   find("ground-facts").replaceChildren(...rows(view.ground.facts));
   find("ground-note").textContent = view.ground.note;
   outdate(view);

@@ -33,7 +33,10 @@ def block_motion(view: GroundView, ground: Ground) -> tuple[Contents, dict[str, 
     motion = simulate(block.system(base, model=view.model))
     times, degrees = _history(motion, block, ground.sampled.times.size)
     fullest = max(float(np.abs(degrees).max()), 0.2 * block.degrees(1.0))
-    return _figures(view, ground, times, degrees, fullest), _words(motion, block)
+    words = _words(motion, block)
+    return _figures(view, ground, times, degrees, fullest), words | {
+        "sentence": f"{SENTENCES[words['kind']]}{factor_in_words(view)}"
+    }
 
 
 def no_motion(view: GroundView, ground: Ground, reason: str) -> tuple[Contents, dict[str, Any]]:
@@ -99,6 +102,14 @@ SENTENCES = {
     "overturns": "The block falls over.",
 }
 """What an outcome means for the block."""
+
+
+def factor_in_words(view: GroundView) -> str:
+    """Return a sentence that states the factor of the base motion; empty for the base motion itself."""
+    if view.scale == 1.0:
+        return ""
+    motion = {"pulse": "the pulse", "file": "the record", "example": "the record"}
+    return f" The base accelerates {view.scale:.4g} times as much as in {motion.get(view.source, 'the synthetic motion')}."
 
 
 def _evidence(motion: Motion, block: Block) -> dict[str, Any]:

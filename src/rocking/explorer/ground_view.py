@@ -220,7 +220,14 @@ class Ground:
             ("PGV", f"{scale * pgv:.4g} m/s"),
             *self.facts,
         ]
-        return {"name": self.name or "ground motion", "facts": facts, "note": self.note, "pga": pga / GRAVITY}
+        name = self.name or "ground motion"
+        return {
+            "name": name,
+            "title": name if scale == 1.0 else f"{scale:.4g} × {name}",
+            "facts": facts,
+            "note": self.note,
+            "pga": pga / GRAVITY,
+        }
 
 
 def thinned(times: np.ndarray, values: np.ndarray, most: int = MAX_DRAWN) -> tuple[np.ndarray, np.ndarray]:
