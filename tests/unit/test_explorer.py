@@ -288,6 +288,20 @@ def test_stripes_lie_on_undetermined_points_alone():
     }
 
 
+def test_undetermined_points_are_blank_and_called_undecided_until_the_map_is_done():
+    """Few cycles classify no undamped motion: a quarter of a first map would be hatched."""
+    axes = ("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0))
+    first, *_ = refined(Responses(*axes, {"restitution": 1.0}, 33))
+    assert np.mean(first.fields["kind"] == Kind.UNDETERMINED.code) > 0.2
+    drawn = colours(first)
+    assert harmonic_maps.HATCH not in drawn
+    assert np.mean(drawn == harmonic_maps.NOTHING) > 0.2
+    number = counts(first).sum(axis=0)
+    names = [each["name"] for each in texts.legend(number, done=False)]
+    assert ("not yet decided" in names, "undetermined" in names) == (True, False)
+    assert "undetermined" in [each["name"] for each in texts.legend(number)]
+
+
 def test_narrowest_view_still_has_a_double_for_every_point():
     for middle in (0.2, 1.0, 3.0, 16.0, 999.0):
         span = Span(middle, middle + closest(Span(middle, middle)))

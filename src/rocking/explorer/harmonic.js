@@ -112,7 +112,8 @@ function readout(across, up) {
   if (exponent === -Infinity) notes.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) notes.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")} per τ`);
   const digits = span => Math.min(17, Math.max(4, 3 - Math.floor(Math.log10(span))));
   const place = `T = ${(baseX + x).toPrecision(digits((right - left) / Math.abs(baseX + x)))}, A = ${(baseY + y).toPrecision(digits((top - bottom) / Math.max(Math.abs(baseY + y), 1e-9)))}: `;
-  return [place, strong(constants.looks[look] ?? "invalid initial state"), ["", ...notes].join("; ")];
+  const name = constants.looks[look] ?? "invalid initial state", awaits = name === "undetermined" && document.body.dataset.map !== "done";
+  return [place, ...(awaits ? [strong("not yet decided")] : [strong(name), ["", ...notes].join("; ")])];
 }
 
 // ---- verdict, legends and messages

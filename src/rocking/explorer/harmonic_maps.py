@@ -212,10 +212,14 @@ class Orbits:
 
 
 def colours(picture: Picture) -> np.ndarray:
-    """Return palette indices, shape (points, points). The finest grid is used at all stages, to keep hatches in place."""
+    """Return palette indices, shape (points, points). The finest grid is used at all stages, to keep hatches in place.
+
+    Until the map is done, undetermined points are blank: most of them only await more cycles.
+    """
     stride = (picture.points - 1) // (picture.side - 1)
     nearest = (np.arange(picture.points) + stride // 2) // stride
-    return _COLOURS[_stripes(picture.points), _shades(picture)[np.ix_(nearest, nearest)]]
+    shades = _shades(picture)[np.ix_(nearest, nearest)]
+    return _COLOURS[_stripes(picture.points), shades] if picture.done else _UNFINISHED[shades]
 
 
 def counts(picture: Picture) -> np.ndarray:
@@ -241,14 +245,12 @@ def _shades(picture: Picture) -> np.ndarray:
     return np.where(look == palette.NONE, PLAIN, look + len(palette.LOOKS) * shade)
 
 
-def _colours() -> np.ndarray:
-    """Return the palette indices of all shades and of `PLAIN`: between the stripes (row 0) and on them (row 1)."""
-    hatched = [look.hatch is not None for look in palette.LOOKS] * SHADES + [False]
-    plain = np.append(np.arange(PLAIN), NOTHING)
-    return np.array([plain, np.where(hatched, HATCH, plain)], np.uint8)
-
-
-_COLOURS = _colours()
+_HATCHED = [look.hatch is not None for look in palette.LOOKS] * SHADES + [False]
+_PLAIN = np.append(np.arange(PLAIN), NOTHING)
+_COLOURS = np.array([_PLAIN, np.where(_HATCHED, HATCH, _PLAIN)], np.uint8)
+"""Palette indices of all shades and of `PLAIN`: between the stripes (row 0) and on them (row 1)."""
+_UNFINISHED = np.where(_HATCHED, NOTHING, _PLAIN).astype(np.uint8)
+"""Palette indices of all shades and of `PLAIN` in a map that is not done."""
 
 
 @cache

@@ -131,7 +131,8 @@ class HarmonicSession(Session):
 
         def draw(picture: Picture) -> None:
             self.link.draw(map=_drawn_map(picture, view.map_axes))
-            self.link.send("legend", {"legend": texts.legend(harmonic_maps.counts(picture).sum(axis=0))})
+            counts = harmonic_maps.counts(picture).sum(axis=0)
+            self.link.send("legend", {"legend": texts.legend(counts, done=picture.done)})
             self.link.send("progress", picture.progress())
 
         across, up = ("period", view.periods), ("amplitude", view.amplitudes)
@@ -219,7 +220,8 @@ class HarmonicSession(Session):
         self._send_attractors(picture)
 
     def _send_attractors(self, picture: Picture) -> None:
-        self.link.send("basin", {"legend": texts.attractors(harmonic_maps.counts(picture))})
+        entries = texts.attractors(harmonic_maps.counts(picture), done=picture.done)
+        self.link.send("basin", {"legend": entries})
 
     # the diagram
 

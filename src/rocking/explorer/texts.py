@@ -109,22 +109,24 @@ def _pair(larger: complex, smaller: complex) -> str:
     return f"{_signed(larger.real)} ± {abs(larger.imag):.4g}i"
 
 
-def legend(counts: np.ndarray) -> list[dict[str, str]]:
+def legend(counts: np.ndarray, *, done: bool = True) -> list[dict[str, str]]:
     """Return all categories of the map, in fixed order, with their area fractions.
 
-    A fraction below `MIN_SHARE` has no number. `counts`, shape (categories,), are numbers of points.
+    A fraction below `MIN_SHARE` has no number. `counts`, shape (categories,), are numbers of points. Until the map is done,
+    undetermined points are blank.
     """
     total = max(int(counts.sum()), 1)
     return [
-        _entry(look.name, look.colour, look, count / total)
+        _entry(look.name, look.colour, look, count / total, done)
         for look, count in zip(palette.LOOKS, counts.tolist(), strict=True)
     ]
 
 
-def attractors(counts: np.ndarray) -> list[dict[str, str]]:
+def attractors(counts: np.ndarray, *, done: bool = True) -> list[dict[str, str]]:
     """Return the attractors of a basin map with their area fractions, the largest category first.
 
     Attractors of a fraction below `MIN_SHARE` are left out. `counts`, shape (shades, categories), are numbers of points.
+    Until the map is done, undetermined points are blank.
     """
     total, entries = max(int(counts.sum()), 1), []
     for place in np.argsort(-counts.sum(axis=0), kind="stable").tolist():
@@ -132,16 +134,17 @@ def attractors(counts: np.ndarray) -> list[dict[str, str]]:
         for shade in np.argsort(-counts[:, place], kind="stable").tolist():
             if counts[shade, place] >= MIN_SHARE * total:
                 colour = SHADED[shade * len(palette.LOOKS) + place]
-                entries.append(_entry(name, colour, look, counts[shade, place] / total))
+                entries.append(_entry(name, colour, look, counts[shade, place] / total, done))
                 name = "another orbit"
     return entries
 
 
-def _entry(name: str, colour: str, look: palette.Look, share: float) -> dict[str, str]:
+def _entry(name: str, colour: str, look: palette.Look, share: float, done: bool) -> dict[str, str]:
+    awaits = look.hatch is not None and not done
     return {
-        "name": name,
-        "colour": colour,
-        "hatch": look.hatch or "",
+        "name": "not yet decided" if awaits else name,
+        "colour": "transparent" if awaits else colour,
+        "hatch": "" if awaits else look.hatch or "",
         "share": percent(share) if share >= MIN_SHARE else "",
     }
 
