@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import rocking as rk
 from rocking.papers.yim_lin_1991.surveys import PERIODIC
 from rocking.plot.palette import LOOKS
 
@@ -247,36 +248,83 @@ def test_two_visitors_do_not_disturb_each_other(visit):
     other.is_content()
 
 
+LABELS = """[...document.querySelectorAll(".plot")].map(({ id }) => {
+    const { below, left } = models[id]; return [id, below[0].axis_label, left[0].axis_label]; })"""
+
+
 @pytest.mark.long
-def test_block_in_metres_stands_on_the_map_with_axes_in_si(visit):
+def test_units_of_fields_figures_tables_and_link_are_those_chosen_at_the_top(visit, tmp_path):
     visitor = visit()
     visitor.open()
-    visitor.page.click("text=SI units")
-    for name, text in (("height", "2"), ("width", "0.5"), ("acceleration", "0.4"), ("frequency_hz", "1.2")):
-        visitor.page.fill(f"#m-{name}", text)
-    visitor.page.select_option("#metres [name=unit]", "g")
-    visitor.page.click("text=Show this block")
-    visitor.until("location.search.includes('height=2')")
-    assert not visitor.page.is_visible("#units"), "what it asked for is seen"
+    before = dict(json.loads(visitor.data("history"))[0])
+    visitor.page.select_option("#units", "si")
+    visitor.until("location.search.includes('height=2&width=0.5')")
     visitor.judged()
     visitor.finished()
-    for name, value in (("amplitude", 0.4 / np.arctan2(0.5, 2.0)), ("restitution", 1 - 1.5 * 0.25 / 4.25)):
-        assert visitor.page.input_value(f"#{name}") == f"≈{value:.4g}"
-        visitor.page.focus(f"#{name}")
-        assert float(visitor.page.input_value(f"#{name}")) == pytest.approx(value, rel=1e-15)
-    visitor.page.press("#restitution", "Tab")
-    assert visitor.page.input_value("#restitution").startswith("≈")
-    assert "forcing\n3.923 m/s² (0.4 g), 0.8333 s (1.2 Hz)" in visitor.text("facts")
-    assert (
-        visitor.page.evaluate("Bokeh.documents[0].get_model_by_name('map').above[0].axis_label")
-        == "period (s)"
+    block = rk.Block(2.0, 0.5)
+    drawn = dict(json.loads(visitor.data("history"))[0])
+    assert drawn["angle"] == pytest.approx(block.degrees(before["angle"]))
+    assert drawn["time"] == pytest.approx(block.seconds(before["time"]))
+    labels = visitor.page.locator("#fields label:visible").all_inner_texts()
+    assert [" ".join(label.split()) for label in labels if "equation" not in label] == [
+        "H height m", "B width m", "e restitution", "f frequency Hz", "a acceleration m/s²", "φ phase rad", "θ₀ initial angle °",
+        "θ̇₀ initial velocity °/s", "θb brace angle °", "r restitution", "first cycle", "cycles",
+    ]  # fmt: skip
+    for name, value in (("width", "0.6"), ("amplitude", "0.4 g"), ("frequency_hz", "1.2")):
+        visitor.page.fill(f"#{name}", value)
+        visitor.page.press(f"#{name}", "Enter")
+        visitor.page.wait_for_selector(f"#{name}:not([data-typing])")
+    visitor.until("shown.fields.frequency_hz === '1.2'")
+    visitor.judged()
+    visitor.finished()
+    assert float(visitor.page.input_value("#restitution").strip("≈")) == pytest.approx(
+        rk.Block(2.0, 0.6).restitution, rel=1e-3
     )
-    visitor.see("metres")
+    assert "forcing\n3.923 m/s² (0.4 g), 0.8333 s (1.2 Hz)" in visitor.text("facts")
+    assert visitor.page.evaluate(LABELS) == [
+        ["map", "period (s)", "amplitude aₓ (m/s²)"],
+        ["history", "time t (s)", "angle θ (°)"],
+        ["portrait", "angle θ (°)", "velocity θ̇ (°/s)"],
+        ["section", visitor.page.evaluate("models.section.below[0].axis_label"), "velocity θ̇ (°/s)"],
+        ["basin", "initial angle θ₀ (°)", "initial velocity θ̇₀ (°/s)"],
+        ["spectrum", "frequency (Hz)", "density S (°²/Hz)"],
+        ["diagram", "amplitude aₓ (m/s²)", "angle θ (°)"],
+    ]
+    visitor.click("map", 0.5, 0.5)
+    visitor.until("shown.fields.frequency_hz !== '1.2'")
+    visitor.judged()
+    x_range, y_range = (visitor.page.evaluate(f"models.map.{name}.end") for name in ("x_range", "y_range"))
+    low = visitor.page.evaluate("models.map.x_range.start")
+    assert visitor.page.evaluate("Number(shown.fields.period)") == pytest.approx(
+        (low + x_range) / 2, rel=0.02
+    )
+    assert visitor.page.evaluate("Number(shown.fields.amplitude)") == pytest.approx(y_range / 2, rel=0.02)
+    assert re.search(r"[\d.]+ s \([\d.]+ Hz\), [\d.]+ m/s²: ", visitor.text("readout"))
+    visitor.page.click("[data-opens=take]")
+    visitor.page.select_option("#which", "map")
+    with visitor.page.expect_download() as download:
+        visitor.page.click("[data-save=csv]")
+    download.value.save_as(tmp_path / "map.csv")
+    assert (tmp_path / "map.csv").read_text().startswith("period [s],amplitude [m/s²],response,")
+    assert "block.system(acceleration=" in visitor.text("python")
+    visitor.page.keyboard.press("Escape")
+    visitor.see("si")
+    other = visit()
+    other.open(visitor.page.url.removeprefix(visitor.running.address))
+    assert other.page.input_value("#units") == "si"
+    assert other.data("history") == visitor.data("history")
+    visitor.page.select_option("#units", "")
+    visitor.until("!location.search.includes('height')")
+    visitor.judged()
+    assert visitor.page.evaluate("models.history.below[0].axis_label") == "time τ"
+    visitor.page.select_option("#units", "si")
+    visitor.until("location.search.includes('height=2&width=0.6')")
     visitor.is_content()
+    other.is_content()
 
 
 # Controls whose middle belongs to something else
-COVERED = """within => [...document.querySelector(within).querySelectorAll("button, input, select")].filter(each => {
+COVERED = """within => [...document.querySelector(within).querySelectorAll("button, input, select")].filter(each => each.checkVisibility()).filter(each => {
     each.scrollIntoView({ block: "center" });
     const box = each.getBoundingClientRect();
     return document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2) !== each;
@@ -288,25 +336,20 @@ SCREENS = pytest.mark.parametrize("width, height", [(1280, 800), (390, 844)])
 
 @SCREENS
 @pytest.mark.long
-def test_what_a_block_in_metres_lacks_is_asked_for_without_covering_anything(visit, width, height):
+def test_block_in_metres_that_cannot_be_is_refused_without_covering_anything(visit, width, height):
     visitor = visit(width, height)
-    visitor.open()
-    visitor.page.click("text=SI units")
-    for name, text in (("height", "2"), ("width", "x"), ("acceleration", "3")):
-        visitor.page.fill(f"#m-{name}", text)
-    visitor.page.click("text=Show this block")
-    visitor.page.wait_for_selector("#m-frequency_hz[aria-invalid=true]")
-    assert visitor.text("m-frequency_hz-refused") == "give the frequency"
-    assert visitor.text("m-width-refused") == "width must be a number in [0.001, 1000]; got 'x'"
+    visitor.open("?version=1&height=2&width=0.5")
+    for name, text in (("width", "9"), ("frequency_hz", "soon")):
+        visitor.page.fill(f"#{name}", text)
+        visitor.page.press(f"#{name}", "Enter")
+        visitor.page.wait_for_selector(f"#{name}[aria-invalid=true]")
+    assert visitor.text("frequency_hz-refused").endswith("; got 'soon'")
+    assert visitor.page.evaluate("document.documentElement.scrollWidth") <= width
     visitor.see(f"metres-refused-{width}")
-    assert visitor.page.evaluate(COVERED, "#units") == []
-    visitor.page.locator("#m-frequency_hz").press_sequentially("1")
-    assert not visitor.page.is_visible("#m-frequency_hz-refused")
-    assert visitor.page.is_visible("#m-width-refused"), "of another field"
-    visitor.page.fill("#m-width", "0.5")
-    visitor.page.click("text=Show this block")
-    visitor.page.wait_for_selector("#units", state="hidden")
-    visitor.until("location.search.includes('width=0.5')")
+    visitor.page.locator("#frequency_hz").press_sequentially("1")
+    assert not visitor.page.is_visible("#frequency_hz-refused")
+    visitor.page.select_option("#model", "full")
+    visitor.until("location.search.includes('critical_angle=0.2449')")
     visitor.is_content()
 
 
@@ -315,10 +358,10 @@ def test_what_a_block_in_metres_lacks_is_asked_for_without_covering_anything(vis
 def test_fields_have_words_beside_their_symbols_and_room_for_what_they_hold(visit, width, height):
     visitor = visit(width, height)
     visitor.open(
-        "?version=1&amplitude=1.2487408494631143&period=2.2260119362057162&restitution=0.9117647058823529&height=2&width=0.5"
+        "?version=1&amplitude=1.2487408494631143&period=2.2260119362057162&restitution=0.9117647058823529"
         "&angle=-0.12345678&velocity=0.000123456789"
     )
-    labels = visitor.page.locator("#fields label").all_inner_texts()
+    labels = visitor.page.locator("#fields label:visible").all_inner_texts()
     assert [" ".join(label.split()) for label in labels] == [
         "e restitution", "θcr critical angle rad", "A amplitude g θcr", "T period 1/α", "φ phase rad", "Θ₀ initial angle θcr",
         "Θ′₀ initial velocity α θcr", "Θb brace angle θcr", "r restitution", "first cycle", "cycles",
@@ -326,7 +369,9 @@ def test_fields_have_words_beside_their_symbols_and_room_for_what_they_hold(visi
     headings = visitor.page.locator("#fields legend").all_inner_texts()
     assert headings == ["Block", "Base motion", "Start", "Braces", "Cycles shown"]
     assert (
-        visitor.page.evaluate("[...document.querySelectorAll('#fields label')].filter(each => !each.title)")
+        visitor.page.evaluate(
+            "[...document.querySelectorAll('#fields label')].filter(each => !each.title && !each.querySelector('[title]'))"
+        )
         == []
     )
     assert visitor.page.evaluate(CUT) == []
@@ -552,7 +597,8 @@ def test_section_grows_to_a_hundred_thousand_points(visit):
 
 
 STOPS = """() => {
-  const stops = [...document.querySelectorAll("header button, main button, main input, main select, #map, #basin")];
+  const stops = [...document.querySelectorAll("header button, header select, main button, main input, main select, #map, #basin")]
+    .filter(each => each.checkVisibility());
   stops.forEach((each, n) => { each.disabled = false; each.dataset.stop = n; });
   document.activeElement.blur();
   return stops.length;

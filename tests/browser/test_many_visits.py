@@ -118,7 +118,7 @@ STRANGE = [
     *(json.dumps(each) for each in (
         {"what": "open"}, {"what": 3, "fields": {}}, {"what": "fields", "fields": []}, {"what": "fields", "fields": {"amplitude": 3}},
         {"what": "fields", "fields": {"__class__": "3", "system": "x"}}, {"what": "case", "fields": {"name": "nothing"}},
-        {"what": "case", "fields": {}}, {"what": "metres", "fields": {}}, {"what": "metres", "fields": {"height": "1e400", "unit": "g"}},
+        {"what": "case", "fields": {}}, {"what": "metres", "fields": {}}, {"what": "fields", "fields": {"height": "1e400", "width": "g"}},
         {"what": "open", "fields": {"address": "?version=99"}}, {"what": "open", "fields": {"address": "a=1&" * 600}},
         {"what": "fields", "fields": {"periods": "3:1"}}, {"what": "fields", "fields": {"periods": "1:1.0000000000000002"}},
         {"what": "fields", "fields": {"amplitudes": "-1:1e9"}}, {"what": "fields", "fields": {"cycles": "9" * 4000}},

@@ -185,8 +185,7 @@ function refuse({ fields }) {
   all("input[aria-invalid]").forEach(pardon);
   const rest = [];
   for (const [name, sentence] of Object.entries(fields)) {
-    const id = find("units")?.open && find("m-" + name) ? "m-" + name : name;
-    const input = find(id), line = find(id + "-refused");
+    const input = find(name), line = find(name + "-refused");
     if (!line) { rest.push(sentence); continue; }
     line.textContent = sentence;
     input.setAttribute("aria-invalid", "true");

@@ -171,7 +171,10 @@ def written(value: Any) -> str:
 
 @frozen
 class Field:
-    """Field of a view: its reader, its label in messages, and what the page says: symbol, words, unit, description, group."""
+    """Field of a view: its reader, its label in messages, and what the page says: symbol, words, unit, description, group.
+
+    `only` names the units in which the page shows it, if not in all: "normalised" or "si". `si` is what it says in SI, if that differs.
+    """
 
     read: Reader
     label: str = ""
@@ -180,11 +183,17 @@ class Field:
     unit: str = ""
     title: str = ""
     group: str = ""
+    only: str = ""
+    si: Field | None = None
 
 
-def entry(default: Any, read: Reader, label: str = "", **shown: str) -> Any:
+def entry(default: Any, read: Reader, label: str = "", **shown: Any) -> Any:
     """Return an attribute of a view that is a field."""
     return attrs.field(default=default, metadata={"field": Field(read, label, **shown)})
+
+
+IN_SI = str.maketrans({"Θ": "θ", "A": "a", "′": "̇"})
+"""Characters of the symbols of quantities in SI, in place of those of normalised quantities."""
 
 
 def quantity(of: Quantity, default: Any, read: Reader | None = None, **shown: str) -> Any:
@@ -196,7 +205,15 @@ def quantity(of: Quantity, default: Any, read: Reader | None = None, **shown: st
         "unit": of.unit.replace("theta_cr", "θcr").replace("alpha", "α"),
         "title": of.help.partition(" Default:")[0].rstrip("."),
     }
-    return entry(default, read or number(*of.range), label, **described | shown)
+    described |= shown
+    read = read or number(*of.range)
+    si = None
+    if of.si is not None:
+        words = described["words"].replace("amplitude", of.si.name)
+        symbol = described["symbol"].translate(IN_SI)
+        title = f"{words[0].upper()}{words[1:]}, in {of.si.drawn_unit}"
+        si = Field(read, symbol=symbol, words=words, unit=of.si.drawn_unit, title=title)
+    return entry(default, read, label, si=si, **described)
 
 
 def axis(default: Span, low: float, high: float, fits: Callable[[Span], bool], ends: str) -> Any:
@@ -212,6 +229,8 @@ class View:
     """Fields that a link always holds; it holds others if they differ from their defaults."""
     GROUPS: ClassVar[tuple[str, ...]] = ()
     """Headings of the groups of fields, from top to bottom."""
+    EXTRA: ClassVar[Mapping[str, Field]] = {}
+    """Fields of the page that are no attributes."""
     LABELS: ClassVar[Mapping[str, str]] = {}
     """Labels of arguments that are not fields, in messages."""
 
@@ -231,7 +250,8 @@ class View:
     def groups(cls) -> dict[str, dict[str, Field]]:
         """Return the fields that the page shows, by group and name."""
         declared = cls.declared().items()
-        return {group: {name: each for name, each in declared if each.group == group} for group in cls.GROUPS}
+        first = sorted((*declared, *cls.EXTRA.items()), key=lambda each: each[1].only != "si")
+        return {group: {name: each for name, each in first if each.group == group} for group in cls.GROUPS}
 
     @classmethod
     @cache
@@ -255,8 +275,13 @@ class View:
 
     @property
     def fields(self) -> dict[str, str]:
-        """Text of each field."""
+        """Text of each field in a link."""
         return {name: written(getattr(self, name)) for name in self.declared()}
+
+    @property
+    def shown(self) -> dict[str, str]:
+        """Text of each field on the page."""
+        return self.fields
 
     def changed(self, typed: Mapping[str, str]) -> Self:
         """Return the view with new values of some fields.

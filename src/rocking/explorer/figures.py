@@ -12,7 +12,6 @@ from bokeh.models import (
     BasicTickFormatter,
     ColumnDataSource,
     FixedTicker,
-    LinearAxis,
     LinearColorMapper,
     Range1d,
 )
@@ -58,7 +57,9 @@ def empty(name: str, *columns: str) -> ColumnDataSource:
     return ColumnDataSource({column: [] for column in columns}, name=name)
 
 
-def framed(name: str, title: str, across: str, up: str, tools: str = "", ticks: int = 5, **more: Any) -> Any:
+def framed(
+    name: str, title: str, across: str = "", up: str = "", tools: str = "", ticks: int = 5, **more: Any
+) -> Any:
     """Return an empty figure with the borders and the text sizes of all."""
     made = figure(
         name=name,
@@ -107,7 +108,7 @@ def image(made: Any, name: str, palette: Sequence[str]) -> Any:
     return made.image(*IMAGE, source=ColumnDataSource(no_image(), name=name), color_mapper=colours)
 
 
-def plane(name: str, title: str, across: str, up: str, palette: Sequence[str], **more: Any) -> Any:
+def plane(name: str, title: str, palette: Sequence[str], across: str = "", up: str = "", **more: Any) -> Any:
     """Return a map of two quantities with zoom, pan and a mark at the selected point."""
     made = framed(name, title, across, up, tools="pan,wheel_zoom,tap", active_scroll="wheel_zoom", **more)
     made.grid.visible = False
@@ -124,32 +125,24 @@ def plane(name: str, title: str, across: str, up: str, palette: Sequence[str], *
 
 
 def plane_of_systems(palette: Sequence[str]) -> Any:
-    """Return the map over period and amplitude, with theoretical curves, and SI axes above and at the right."""
-    made = plane("map", "Response type", "period T", "amplitude A", palette)
+    """Return the map over period and amplitude, with theoretical curves."""
+    made = plane("map", "Response type", palette)
     curves = empty("curves", "xs", "ys", "dash")
     for colour, width in (("white", 4.0), (style.INK, 1.4)):
         made.multi_line("xs", "ys", source=curves, line_color=colour, line_width=width, line_dash="dash")
-    made.extra_x_ranges["si"], made.extra_y_ranges["si"] = (
-        Range1d(start=0.0, end=1.0),
-        Range1d(start=0.0, end=1.0),
-    )
-    above, right = LinearAxis(x_range_name="si", visible=False), LinearAxis(y_range_name="si", visible=False)
-    for axis, side in ((above, "above"), (right, "right")):
-        axis.update(**AXIS, ticker=BasicTicker(desired_num_ticks=5))
-        made.add_layout(axis, side)
     return made
 
 
 def history() -> Any:
     """Return the time history of the angle."""
-    made = framed("history", "Time history", "time τ", "angle Θ")
+    made = framed("history", "Time history")
     line(made, "time", "angle", "velocity", width=1.4)
     return made
 
 
 def portrait() -> Any:
     """Return the phase portrait, with a mark at each impact."""
-    made = framed("portrait", "Phase portrait with impacts", "angle Θ", "velocity Θ′", ticks=FEW)
+    made = framed("portrait", "Phase portrait with impacts", ticks=FEW)
     line(made, "angle", "velocity", width=1.0, alpha=0.8)
     hits = empty("hits", "angle", "velocity", "colour")
     made.scatter("angle", "velocity", source=hits, size=4.5, color="colour", line_color=None)
@@ -158,7 +151,7 @@ def portrait() -> Any:
 
 def section() -> Any:
     """Return the Poincaré section, once per forcing cycle: single points, or an image of their density."""
-    made = framed("section", "Poincaré section", "angle Θ", "velocity Θ′", ticks=FEW)
+    made = framed("section", "Poincaré section", ticks=FEW)
     shades = [f"{style.MOTION}{round(255 * share):02X}" for share in (0.0, *np.linspace(0.35, 1.0, 8))]
     image(made, "dense", shades)
     points = empty("points", "angle", "velocity")
@@ -170,8 +163,7 @@ def section() -> Any:
 
 def spectrum() -> Any:
     """Return the power spectral density over frequency / forcing frequency, with names at its strongest lines."""
-    across = "frequency / forcing frequency"
-    made = framed("spectrum", "Power spectral density", across, "density S (τ)", y_axis_type="log")
+    made = framed("spectrum", "Power spectral density", y_axis_type="log")
     line(made, "frequency", "density", width=1.2)
     words = {
         "text_font_size": FONT,
@@ -187,7 +179,7 @@ def spectrum() -> Any:
 
 def diagram() -> Any:
     """Return the orbit (bifurcation) diagram over the amplitude or the period."""
-    made = framed("diagram", "Orbit (bifurcation) diagram", "", "angle Θ", tools="tap")
+    made = framed("diagram", "Orbit (bifurcation) diagram", tools="tap")
     dots = {"size": 1.8, "color": style.MOTION, "line_color": None, "marker": "square"}
     made.scatter("value", "angle", source=empty("points", "value", "angle"), name="dots", **dots)
     made.add_layout(Line(name="here", dimension="height", location=0.0, line_color=SELECTED, line_width=1.5))
@@ -200,7 +192,7 @@ def diagram() -> Any:
 def plane_of_blocks(palette: Sequence[str]) -> Any:
     """Return the map over size, on a logarithmic axis, and critical angle."""
     labels = "half diagonal R (m)", "critical angle θcr (°)"
-    made = plane("map", "Outcome and largest angle", *labels, palette, x_axis_type="log")
+    made = plane("map", "Outcome and largest angle", palette, *labels, x_axis_type="log")
     made.xaxis.ticker = FixedTicker(ticks=TICKS)
     made.xaxis.formatter = BasicTickFormatter()
     return made
@@ -268,7 +260,7 @@ class Axes:
         corner = {"x": [left - wide / 2], "y": [bottom - high / 2]}
         return {"image": [colours], **corner, "w": [right - left + wide], "h": [top - bottom + high]}
 
-    def place(self, made: Any, names: tuple[str, str], limits: tuple[Span, Span], closest: Any) -> None:
+    def place(self, made: Any, names: Sequence[str], limits: Sequence[Span], closest: Any) -> None:
         """Set ranges and labels of a map, and the limits of pan and zoom; `closest` gives the narrowest range of an axis."""
         parts = (made.x_range, made.below[0], self.across), (made.y_range, made.left[0], self.up)
         for (range_, axis, span), name, limit, offset in zip(parts, names, limits, self.base, strict=True):

@@ -24,6 +24,8 @@ function show(view) {
     if (document.activeElement !== input) input.value = brief(text);
     else if (!input.dataset.typing) input.value = text;
   }
+  if (view.si !== before?.si) units(view);
+  find("model").value = view.fields.critical_angle ? "full" : "slender";
   const on = new Set(view.fields.curves.split(","));
   for (const box of all("#curves input")) box.checked = on.has(box.name);
   find("curves").disabled = Boolean(view.fields.brace_angle || view.fields.critical_angle);
@@ -37,9 +39,21 @@ function show(view) {
   find("commands").textContent = view.commands;
   find("link-text").textContent = location.href;
   outdate(view);
-  find("units").close(); // uncovers the new view
-  if (view.fields.height) { find("m-height").value = view.fields.height; find("m-width").value = view.fields.width; }
 }
+
+// ---- normalised quantities, or SI for a block
+
+let size = { height: "2", width: "0.5" }; // of the last block
+
+function units(view) {
+  document.body.dataset.units = find("units").value = view.si ? "si" : "";
+}
+
+find("units").onchange = event => {
+  if (shown.si) size = { height: shown.fields.height, width: shown.fields.width };
+  ask("fields", event.target.value ? size : { height: "", width: "" });
+};
+find("model").onchange = event => ask("fields", { critical_angle: event.target.value === "full" ? shown.full : "" });
 
 // ---- maps: the browser zooms and pans, the server computes
 
@@ -82,12 +96,11 @@ function zoom(name, by, right = 0, up = 0) {
   }
 }
 
-const whole = { map: { periods: "0.2:3", amplitudes: "0:16" }, basin: { angles: "-1.2:1.2", velocities: "-1.2:1.2" } };
 for (const button of all("[data-zoom]")) button.onclick = () => zoom(button.dataset.zoom, Number(button.dataset.by));
-for (const button of all("[data-whole]")) button.onclick = () => ask("fields", whole[button.dataset.whole]);
+for (const button of all("[data-whole]")) button.onclick = () => ask("fields", shown.whole[button.dataset.whole]);
 for (const name of page.maps) {
   const keys = {
-    "+": () => zoom(name, 2), "=": () => zoom(name, 2), "-": () => zoom(name, 0.5), "0": () => ask("fields", whole[name]),
+    "+": () => zoom(name, 2), "=": () => zoom(name, 2), "-": () => zoom(name, 0.5), "0": () => ask("fields", shown.whole[name]),
     ArrowLeft: () => zoom(name, 1, -0.1), ArrowRight: () => zoom(name, 1, 0.1), ArrowDown: () => zoom(name, 1, 0, -0.1), ArrowUp: () => zoom(name, 1, 0, 0.1),
   };
   find(name).addEventListener("keydown", event => {
@@ -103,15 +116,16 @@ function readout(across, up) {
   const x = x_range.start + across * (x_range.end - x_range.start), y = y_range.start + up * (y_range.end - y_range.start);
   const column = Math.round((x - left) / (right - left) * (side - 1)), row = Math.round((y - bottom) / (top - bottom) * (side - 1));
   if (column < 0 || row < 0 || column >= side || row >= side) return;
-  const at = row * side + column, look = source.look[at], period = source.response_period[at], impacts = source.impacts_per_period[at];
+  const at = row * side + column, look = source.look[at], repeats = source.response_period[at], impacts = source.impacts_per_period[at];
   const ground = source.evidence[at], exponent = source.exponent[at], [baseX, baseY] = shown.planes.map.base;
   const notes = [];
-  if (period > 0) notes.push(`repeats after ${period} cycle${period > 1 ? "s" : ""}` + (impacts >= 0 ? `, ${impacts} impact${impacts === 1 ? "" : "s"}` : ""));
+  if (repeats > 0) notes.push(`repeats after ${repeats} cycle${repeats > 1 ? "s" : ""}` + (impacts >= 0 ? `, ${impacts} impact${impacts === 1 ? "" : "s"}` : ""));
   const level = constants.levels[ground] === "none" ? "" : ` (${constants.levels[ground]})`;
   notes.push(constants.grounds[ground] + level);
-  if (exponent === -Infinity) notes.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) notes.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")} per τ`);
+  if (exponent === -Infinity) notes.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) notes.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")} per ${shown.si ? "s" : "τ"}`);
   const digits = span => Math.min(17, Math.max(4, 3 - Math.floor(Math.log10(span))));
-  const place = `T = ${(baseX + x).toPrecision(digits((right - left) / Math.abs(baseX + x)))}, A = ${(baseY + y).toPrecision(digits((top - bottom) / Math.max(Math.abs(baseY + y), 1e-9)))}: `;
+  const period = (baseX + x).toPrecision(digits((right - left) / Math.abs(baseX + x))), amplitude = (baseY + y).toPrecision(digits((top - bottom) / Math.max(Math.abs(baseY + y), 1e-9)));
+  const place = shown.si ? `${period} s (${(1 / (baseX + x)).toPrecision(4)} Hz), ${amplitude} m/s²: ` : `T = ${period}, A = ${amplitude}: `;
   const name = constants.looks[look] ?? "invalid initial state", awaits = name === "undetermined" && document.body.dataset.map !== "done";
   return [place, ...(awaits ? [strong("not yet decided")] : [strong(name), ["", ...notes].join("; ")])];
 }
@@ -131,12 +145,12 @@ const shares = legend => legend.filter(each => each.share).map(each => `${each.n
 
 function legend({ legend }) {
   find("legend").replaceChildren(...entries(legend));
-  find("map").setAttribute("aria-label", `Map of responses over period and amplitude: ${shares(legend)}. Arrow keys move the view, plus and minus zoom, 0 resets it. Enter A and T to select a point.`);
+  find("map").setAttribute("aria-label", `Map of responses over period and amplitude: ${shares(legend)}. Arrow keys move the view, plus and minus zoom, 0 resets it. Enter numbers to select a point.`);
 }
 
 function attractors({ legend }) {
   find("attractors").replaceChildren(...entries(legend));
-  find("basin").setAttribute("aria-label", `Basins of attraction: ${shares(legend)}. Arrow keys move the view, plus and minus zoom, 0 resets it. Enter Θ₀ and Θ′₀ to select an initial state.`);
+  find("basin").setAttribute("aria-label", `Basins of attraction: ${shares(legend)}. Arrow keys move the view, plus and minus zoom, 0 resets it. Enter numbers to select an initial state.`);
 }
 
 // ---- controls
@@ -165,19 +179,14 @@ const slid = push => {
 };
 
 for (const button of all("[data-case]")) button.onclick = () => { find("gallery").close(); ask("case", { name: button.dataset.case }); };
-find("metres").addEventListener("submit", event => {
-  event.preventDefault();
-  ask("metres", Object.fromEntries(new FormData(event.target)));
-});
-find("no-metres").onclick = () => { ask("fields", { height: "", width: "" }); };
+
 // ---- files
 
-// Columns of a figure; undefined if it is not computed yet.
+// Columns of a figure with their headings; undefined if it is not computed yet.
 function table(name) {
-  if (name === "map") return grid(name, "period", "amplitude");
-  if (name === "basin") return grid(name, "angle", "velocity");
-  if (name === "section") return answers.section;
-  return columns(name);
+  const found = name === "map" ? grid(name, "period", "amplitude") : name === "basin" ? grid(name, "angle", "velocity")
+    : name === "section" ? answers.section : columns(name);
+  return found && Object.fromEntries(Object.entries(found).map(([column, values]) => [shown.headings[column] ?? column, values]));
 }
 
 function grid(name, across, up) {
@@ -199,14 +208,9 @@ function grid(name, across, up) {
 // ---- the block
 
 function scene() {
-  const { time, angle } = columns("history"), fields = shown.fields;
-  const height = Number(fields.height) || 4, width = Number(fields.width) || height * Math.tan(Number(fields.critical_angle) || Math.atan(0.25));
-  const amplitude = Number(fields.amplitude), period = Number(fields.period), frequency = 2 * Math.PI / period;
-  const critical = Math.atan2(width, height), radius = Math.hypot(height, width) / 2;
-  // displacement amplitude a_x/ω² in the units of height and width: A g θcr/(Ω α)², α² = 3g/4R
-  const base = amplitude * critical * (4 * radius / 3) / frequency ** 2;
-  shoot(angle, critical, height, { time, width,
-    displacement: at => -base * Math.cos(frequency * at + Number(fields.phase)), speed: Math.max(period / 1.2, (time[time.length - 1] - time[0]) / 40),
+  const { time, angle } = columns("history"), { height, width, critical, unit, base, frequency, phase } = shown.scene;
+  shoot(Array.from(angle, value => value * unit), critical, height, { time, width,
+    displacement: at => -base * Math.cos(frequency * at + phase), speed: Math.max(2 * Math.PI / frequency / 1.2, (time[time.length - 1] - time[0]) / 40),
     moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) });
   clock = time[0] ?? 0;
   const notes = [];

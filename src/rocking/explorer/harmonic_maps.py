@@ -227,8 +227,8 @@ def counts(picture: Picture) -> np.ndarray:
     return np.bincount(_shades(picture).ravel(), minlength=PLAIN + 1)[:PLAIN].reshape(SHADES, -1)
 
 
-def answers(picture: Picture) -> dict[str, np.ndarray]:
-    """Return the results of all points, for the readout and the table; flat, rows upward."""
+def answers(picture: Picture, rate: float = 1.0) -> dict[str, np.ndarray]:
+    """Return the results of all points, for the readout and the table; flat, rows upward. Exponents are multiplied by `rate`."""
     kept = picture.fields
     narrow = np.iinfo(np.int16)
     numbers = {
@@ -236,7 +236,7 @@ def answers(picture: Picture) -> dict[str, np.ndarray]:
         for name in ("response_period", "impacts_per_period")
     }
     flat = {name: kept[name].ravel() for name in ("look", "evidence", "orbit")}
-    return numbers | flat | {"exponent": kept["exponent"].astype(np.float32).ravel()}
+    return numbers | flat | {"exponent": (rate * kept["exponent"]).astype(np.float32).ravel()}
 
 
 def _shades(picture: Picture) -> np.ndarray:
@@ -269,14 +269,14 @@ def curves(view: HarmonicView, axes: Axes) -> dict[str, Any]:
     They hold for a slender block without braces; otherwise there are none.
     """
     columns: dict[str, Any] = {"xs": [], "ys": [], "dash": []}
-    dx, dy = axes.base
+    (dx, dy), scale = axes.base, view.units.factor
     hold = view.brace_angle is None and view.critical_angle is None
     for name in view.curves if hold else ():
         periods, *lines = _curve(name, view.periods, view.amplitudes, view.restitution)
         for line, dash in zip(lines, (DASHES[name], DOTTED), strict=True):
             if np.isfinite(line).any():
-                columns["xs"].append(periods - dx)
-                columns["ys"].append(line - dy)
+                columns["xs"].append(periods * scale("period") - dx)
+                columns["ys"].append(line * scale("amplitude") - dy)
                 columns["dash"].append(dash)
     return columns
 

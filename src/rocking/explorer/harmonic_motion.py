@@ -12,7 +12,9 @@ import numpy as np
 
 from rocking.explorer.figures import no_image
 from rocking.explorer.harmonic_maps import PERIOD
+from rocking.explorer.harmonic_units import Contents
 from rocking.explorer.harmonic_view import HarmonicView
+from rocking.model.block import Block
 from rocking.model.quantity import ANGLE
 from rocking.model.system import State, System
 from rocking.model.validation import TooManyEvents
@@ -26,8 +28,6 @@ from rocking.response.spectrum import Peak, spectral_density
 
 Columns = dict[str, Any]
 Ranges = tuple[float, float, float, float]
-Contents = dict[str, Any]
-"""New contents of a figure: columns by the names of their sources, and its `ranges`, `label`, and more."""
 
 SOON, LATER = 10_000, 100_000
 """Maximum number of cycles of the first classification, and of the second one if the response is undetermined."""
@@ -52,8 +52,8 @@ VALUES, TRANSIENT, KEPT = 240, 200, 32
 """Orbit diagram: parameter values, cycles discarded at each value and cycles recorded."""
 PIECE_HITS = 3e5
 """Approximate number of impacts per part of an orbit diagram. The computation can stop only between two parts."""
-VARIED = {"amplitude": "amplitude A", "period": "period T"}
-"""Labels of the parameter of the orbit diagram."""
+DRAWN = 4.0, 4.0
+"""Height, in m, and slenderness H/B of the moving block, where they are not given."""
 FARTHEST = 1e6
 """Largest angle drawn of a block that overturns. Within a long cycle the angle can exceed the range of doubles."""
 ROOM = 0.06
@@ -159,6 +159,27 @@ def _around(values: np.ndarray) -> tuple[float, float]:
     return low - room, high + room
 
 
+def scene(view: HarmonicView) -> dict[str, float]:
+    """Return what the page needs to draw the moving block: lengths in m, and angle and time in the units of the history.
+
+    The base has the displacement −`base` cos(`frequency` t + `phase`). A block that is not given has any size.
+    """
+    height, slenderness = DRAWN
+    width = height * math.tan(view.critical_angle) if view.critical_angle else height / slenderness
+    block = view.block or Block(height, width, view.restitution)
+    critical, period = view.units.factor("angle"), view.units.shown("period", view.period)
+    displacement = block.acceleration(view.amplitude) / (math.tau / block.seconds(view.period)) ** 2
+    return {
+        "height": block.height,
+        "width": block.width,
+        "critical": block.critical_angle,
+        "unit": 1.0 / critical,
+        "base": float(displacement),
+        "frequency": math.tau / period,
+        "phase": view.phase,
+    }
+
+
 def spectrum(view: HarmonicView) -> Contents:
     """Return the power spectral density after the transient, over multiples of the forcing frequency.
 
@@ -231,7 +252,7 @@ class Section:
         ranges = *_around(points[:, 0]), *_around(points[:, 1])
         drawn = {
             "ranges": ranges,
-            "label": _section_label(omitted, len(self.points), self.ended),
+            "label": _section_label(self.view.units.label("angle"), omitted, len(self.points), self.ended),
             "orbit": {"angle": last[:MAX_RINGS, 0], "velocity": last[:MAX_RINGS, 1]},
             "answers": {"angle": points[:, 0].copy(), "velocity": points[:, 1].copy()},
         }
@@ -259,10 +280,10 @@ class Section:
         return min(max(computed // 10, TRANSIENT), 9 * computed // 10)
 
 
-def _section_label(omitted: int, last: int, ended: str) -> str:
+def _section_label(angle: str, omitted: int, last: int, ended: str) -> str:
     """Return the label of the angle, with the cycles shown, counted from 1, and the reason if the motion ended."""
     cycles = f"cycle{'s' * (last > 1)} {omitted + 1:,}{f'–{last:,}' * (last > 1)}" if last else ""
-    return ", ".join(filter(None, ("angle Θ", cycles, ended)))
+    return ", ".join(filter(None, (angle, cycles, ended)))
 
 
 def _cells(points: np.ndarray, spans: Ranges) -> np.ndarray:
@@ -284,7 +305,7 @@ def diagram(view: HarmonicView, stop: np.ndarray) -> Contents:
         kept = np.isfinite(angles)
         columns = {"value": np.broadcast_to(values[:, None], angles.shape)[kept], "angle": angles[kept]}
     ranges = span.low, span.high, *_around(np.asarray(columns["angle"]))
-    return {"ranges": ranges, "label": VARIED[view.vary], "points": columns}
+    return {"ranges": ranges, "label": view.units.label(view.vary), "points": columns}
 
 
 def _diagram_angles(view: HarmonicView, values: np.ndarray, stop: np.ndarray) -> np.ndarray | None:

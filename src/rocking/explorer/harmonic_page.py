@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from functools import partial
 from typing import Any
 
+import attrs
 import numpy as np
 
 from rocking.explorer import figures, harmonic_maps, presets, texts
@@ -13,11 +15,11 @@ from rocking.explorer import harmonic_motion as motion
 from rocking.explorer.fields import Span, written
 from rocking.explorer.figures import Axes
 from rocking.explorer.harmonic_maps import Attractors, Basins, Responses
-from rocking.explorer.harmonic_view import POINTS, HarmonicView, closest, in_metres, nearby
+from rocking.explorer.harmonic_units import CONVERTED, Contents, axes_of
+from rocking.explorer.harmonic_view import DEFAULT, POINTS, HarmonicView, closest, nearby
 from rocking.explorer.page import Page
 from rocking.explorer.refinement import Picture, Refinement
 from rocking.explorer.session import Job, Session
-from rocking.model.quantity import AMPLITUDE, ANGLE, PERIOD, VELOCITY
 from rocking.model.verdict import Criterion, Kind, Verdict
 from rocking.plot import palette
 
@@ -30,10 +32,10 @@ BREATH = 0.2
 """Pause between two steps of a refinement, s, so that the page can repaint."""
 MAP_FIRST = 1.0
 """Maximum delay of a basin map and of a longer section in favour of the map of responses, s."""
-MAP_LIMITS = Span(*PERIOD.range), Span(*AMPLITUDE.range)
-BASIN_LIMITS = Span(*ANGLE.range), Span(*VELOCITY.range)
-MAP_LABELS = "period T", "amplitude A"
-BASIN_LABELS = "initial angle Θ₀", "initial velocity Θ′₀"
+MAPS = {"map": ("period", "amplitude"), "basin": ("angle", "velocity")}
+"""Quantities of the axes of the maps."""
+RANGES = {"map": ("periods", "amplitudes"), "basin": ("angles", "velocities")}
+"""Fields of their ranges."""
 SHAKEN = ("restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution", "critical_angle")
 
 
@@ -47,81 +49,92 @@ class HarmonicSession(Session):
     def figures(self) -> tuple[Any, ...]:
         """Make the figures, of which three can be clicked."""
         self.map = figures.plane_of_systems(harmonic_maps.PALETTE)
-        self.basin = figures.plane("basin", "Basins of attraction", *BASIN_LABELS, harmonic_maps.PALETTE)
-        diagram = figures.diagram()
-        self.select(self.map, self._system_at)
-        self.select(self.basin, self._start_at)
-        self.select(diagram, lambda across, _: self._near(**{self.view.vary: (across, self.view.varied)}))
-        others = figures.history(), figures.portrait(), figures.section(), figures.spectrum()
-        return self.map, self.basin, diagram, *others
+        self.basin = figures.plane("basin", "Basins of attraction", harmonic_maps.PALETTE)
+        self.others = (
+            figures.diagram(),
+            figures.history(),
+            figures.portrait(),
+            figures.section(),
+            figures.spectrum(),
+        )
+        self.select(self.map, partial(self._map_point, "map"))
+        self.select(self.basin, partial(self._map_point, "basin"))
+        self.select(self.others[0], lambda across, _: self._near(**{self.view.vary: (across, self._slider)}))
+        return self.map, self.basin, *self.others
 
-    def _system_at(self, across: float, up: float) -> dict[str, str]:
-        dx, dy = self.view.map_axes.base
-        return self._near(period=(dx + across, self.view.periods), amplitude=(dy + up, self.view.amplitudes))
-
-    def _start_at(self, across: float, up: float) -> dict[str, str]:
-        dx, dy = self.view.basin_axes.base
-        return self._near(angle=(dx + across, self.view.angles), velocity=(dy + up, self.view.velocities))
+    def _map_point(self, name: str, across: float, up: float) -> dict[str, str]:
+        """Return the fields of a click on a map."""
+        axes = self._axes(name)
+        (dx, dy), (x, y) = axes.base, MAPS[name]
+        return self._near(**{x: (dx + across, axes.across), y: (dy + up, axes.up)})
 
     def _near(self, **places: tuple[float, Span]) -> dict[str, str]:
         """Return the fields of a click, given per field as its coordinate and the range of the axis."""
         return {name: written(nearby(at, span)) for name, (at, span) in places.items()}
 
+    def _axes(self, name: str) -> Axes:
+        return self.view.map_axes if name == "map" else self.view.basin_axes
+
+    @property
+    def _slider(self) -> Span:
+        return self.view.units.shown(self.view.vary, self.view.varied)
+
     def answer(self, what: str, typed: dict[str, str]) -> tuple[Any, dict[str, str]]:
-        """Return the requested view; requests of this page are a block in SI units and a case of the gallery."""
-        if what == "metres":
-            return in_metres(self.view, typed), {}
+        """Return the requested view; a request of this page is a case of the gallery."""
         if what == "case" and typed.get("name") in presets.BY_NAME:
-            return presets.BY_NAME[typed["name"]].view, {}
+            case, shown = presets.BY_NAME[typed["name"]].view, self.view
+            return attrs.evolve(case, height=shown.height, width=shown.width), {}
         return super().answer(what, typed)
 
     # axes and marks
 
     def place(self, changed: Callable[..., bool]) -> None:
-        """Set ranges and labels of the maps, mark the selected point and draw the selected theoretical curves."""
-        view, axes, basin = self.view, self.view.map_axes, self.view.basin_axes
-        if changed("periods", "amplitudes", "height", "width", "restitution"):
-            axes.place(self.map, MAP_LABELS, MAP_LIMITS, closest)
-            self._place_metres()
-        if changed("angles", "velocities"):
-            basin.place(self.basin, BASIN_LABELS, BASIN_LIMITS, closest)
-        point, curves = axes.point(view.period, view.amplitude), harmonic_maps.curves(view, axes)
+        """Set ranges and labels of the figures, mark the selected point and draw the selected theoretical curves."""
+        view, units, sizes = self.view, self.view.units, ("height", "width")
+        for name, made in (("map", self.map), ("basin", self.basin)):
+            if changed(*RANGES[name], *sizes):
+                limits = [units.shown(each, Span(*CONVERTED[each][0].range)) for each in MAPS[name]]
+                labels = [
+                    units.label(each) if name == "map" else units.start_label(each) for each in MAPS[name]
+                ]
+                self._axes(name).place(made, labels, limits, closest)
+        if changed(*sizes):
+            for made in self.others:
+                made.below[0].axis_label, made.left[0].axis_label = map(
+                    units.label, axes_of(made.name, view.vary)
+                )
+        x, y, angle, velocity = (
+            units.shown(each, getattr(view, each)) for each in CONVERTED if each != "brace_angle"
+        )
         self.link.draw(
-            map={"point": point, "curves": curves},
-            basin={"point": basin.point(view.angle, view.velocity)},
-            diagram={"here": getattr(view, view.vary)},
+            map={"point": view.map_axes.point(y, x), "curves": harmonic_maps.curves(view, view.map_axes)},
+            basin={"point": view.basin_axes.point(angle, velocity)},
+            diagram={"here": units.shown(view.vary, getattr(view, view.vary))},
         )
 
-    def _place_metres(self) -> None:
-        """Set the SI axes of the map above and at the right; they are visible only with a block."""
-        block, (above,), (right,) = self.view.block, self.map.above, self.map.right
-        above.visible = right.visible = block is not None
-        if block is None:
-            return
-        ranges, base = self.view.map_axes.ranges, self.view.map_axes.base
-        for axis, across, ends, offset, factor, name in (
-            (above, self.map.extra_x_ranges, ranges[:2], base[0], block.seconds(1.0), "period (s)"),
-            (
-                right,
-                self.map.extra_y_ranges,
-                ranges[2:],
-                base[1],
-                block.acceleration(1.0),
-                "acceleration (m/s²)",
-            ),
-        ):
-            across["si"].update(start=ends[0] * factor, end=ends[1] * factor)
-            axis.axis_label = f"{name} − {offset * factor:.9g}" if offset else name
-
     def description(self) -> dict[str, Any]:
-        """Return the ranges of maps and slider, and the code and the commands for this view."""
-        view = self.view
+        """Return the units, the ranges of maps and slider, the moving block, and the code and the commands for this view."""
+        view, units, slider = self.view, self.view.units, self._slider
+        whole = attrs.evolve(
+            DEFAULT, height=view.height, width=view.width, restitution=view.restitution
+        ).shown
         return {
+            "si": view.block is not None,
+            "full": "" if view.block is None else written(view.block.critical_angle),
             "planes": {"map": _plane(view.map_axes), "basin": _plane(view.basin_axes)},
-            "slider": [view.varied.low, view.varied.high, getattr(view, view.vary)],
+            "whole": {name: {each: whole[each] for each in ranges} for name, ranges in RANGES.items()},
+            "slider": [slider.low, slider.high, units.shown(view.vary, getattr(view, view.vary))],
+            "headings": units.headings(view.vary),
+            "scene": motion.scene(view),
             "python": texts.python(view),
             "commands": texts.commands(view),
         }
+
+    def _draw(self, view: HarmonicView, **contents: Contents) -> None:
+        """Draw the contents of figures in the units of the view."""
+        self.link.draw(
+            **{name: view.units.contents(name, each, view.vary) for name, each in contents.items()}
+        )
 
     # the map
 
@@ -130,7 +143,7 @@ class HarmonicSession(Session):
         first = await self.workers.soon(_first, view)
 
         def draw(picture: Picture) -> None:
-            self.link.draw(map=_drawn_map(picture, view.map_axes))
+            self.link.draw(map=_drawn_map(picture, view, view.map_axes))
             counts = harmonic_maps.counts(picture).sum(axis=0)
             self.link.send("legend", {"legend": texts.legend(counts, done=picture.done)})
             self.link.send("progress", picture.progress())
@@ -154,7 +167,8 @@ class HarmonicSession(Session):
         def draw() -> None:
             picture = basin.result()[1]
             drawn = {"spectrum": spectrum.result(), "section": points.result()}
-            self.link.draw(**traces.result(), **drawn, basin=_drawn_map(picture, view.basin_axes))
+            self._draw(view, **traces.result(), **drawn)
+            self.link.draw(basin=_drawn_map(picture, view, view.basin_axes))
             self._send_attractors(picture)
             self._send_verdict(view, verdict.result())
 
@@ -164,7 +178,7 @@ class HarmonicSession(Session):
         if verdict.result().kind is Kind.UNDETERMINED and not motion.crowded(view):
             self.jobs.start("verdict", self._continue_verdict, view)
 
-    async def _first_points(self, section: motion.Section, verdict: Awaitable[Verdict]) -> motion.Contents:
+    async def _first_points(self, section: motion.Section, verdict: Awaitable[Verdict]) -> Contents:
         """Return the first points of a section; those of a periodic orbit are marked."""
         await self.workers.soon(section.grow, GROWTH[0])
         return await self.workers.soon(section.drawn, (await verdict).period)
@@ -173,6 +187,7 @@ class HarmonicSession(Session):
         self.link.send("verdict", texts.verdict(verdict, view.block))
 
     async def _grow(self, section: motion.Section, period: int | None, stop: np.ndarray) -> None:
+        view = section.view
         await self.jobs.over("map", MAP_FIRST)
         for cycles in GROWTH[1:]:
             if section.ended or stop[0]:
@@ -180,10 +195,7 @@ class HarmonicSession(Session):
             await asyncio.sleep(BREATH)
             await self.workers.later(section.grow, cycles)
             drawn = await self.workers.later(section.drawn, period)
-            await self.change(self._draw_section, drawn)
-
-    def _draw_section(self, drawn: motion.Contents) -> None:
-        self.link.draw(section=drawn)
+            await self.change(lambda drawn: self._draw(view, section=drawn), drawn)
 
     async def _continue_verdict(self, view: HarmonicView, stop: np.ndarray) -> None:
         await self.change(self._send_verdict, view, await self.workers.later(motion.longer_verdict, view))
@@ -216,7 +228,7 @@ class HarmonicSession(Session):
             await self.change(self._draw_basin, view, picture)
 
     def _draw_basin(self, view: HarmonicView, picture: Picture) -> None:
-        self.link.draw(basin=_drawn_map(picture, view.basin_axes))
+        self.link.draw(basin=_drawn_map(picture, view, view.basin_axes))
         self._send_attractors(picture)
 
     def _send_attractors(self, picture: Picture) -> None:
@@ -229,13 +241,10 @@ class HarmonicSession(Session):
         """Draw the orbit diagram along an axis of the map, after the other figures of the selection."""
         await self.jobs.over("response")
         drawn = await self.workers.later(motion.diagram, view, stop)
-        await self.change(self._draw_diagram, drawn)
-
-    def _draw_diagram(self, drawn: motion.Contents) -> None:
-        self.link.draw(diagram=drawn)
+        await self.change(lambda: self._draw(view, diagram=drawn))
 
     JOBS = (
-        Job("map", refine_map, ("periods", "amplitudes", *SHAKEN), ("map",)),
+        Job("map", refine_map, ("periods", "amplitudes", *SHAKEN, "height", "width"), ("map",)),
         Job(
             "response",
             respond,
@@ -244,7 +253,7 @@ class HarmonicSession(Session):
             ends=("section", "basin", "verdict"),
         ),
         Job("basin", refine_basin, ("angles", "velocities"), ("basin",), within="response"),
-        Job("diagram", draw_diagram, ("vary", "varied", "other", *SHAKEN)),
+        Job("diagram", draw_diagram, ("vary", "varied", "other", *SHAKEN, "height", "width")),
     )
 
 
@@ -259,10 +268,11 @@ def _plane(axes: Axes) -> dict[str, Any]:
     return {"base": list(axes.base), "ranges": list(axes.ranges), "deepest": deepest}
 
 
-def _drawn_map(picture: Picture, axes: Axes) -> dict[str, Any]:
+def _drawn_map(picture: Picture, view: HarmonicView, axes: Axes) -> dict[str, Any]:
     """Return the image of a map, and its results for readout and table if they can be read at each point."""
     drawn: dict[str, Any] = {"image": axes.image(harmonic_maps.colours(picture))}
-    return drawn | ({"answers": harmonic_maps.answers(picture)} if picture.whole else {})
+    rate = view.units.factor("exponent")
+    return drawn | ({"answers": harmonic_maps.answers(picture, rate)} if picture.whole else {})
 
 
 PAGE = Page(
@@ -277,7 +287,6 @@ PAGE = Page(
     },
     variables={
         "fields": HarmonicView.groups(),
-        "labels": HarmonicView.labels(),
         "curves": harmonic_maps.NAMES,
         "groups": presets.GROUPS,
     },

@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar
 
-import attrs
 from attrs import asdict, evolve, frozen
 
 from rocking.explorer.fields import (
+    Field,
     Refused,
     Span,
     View,
@@ -24,6 +24,7 @@ from rocking.explorer.fields import (
     words,
 )
 from rocking.explorer.figures import Axes
+from rocking.explorer.harmonic_units import Units
 from rocking.model import quantity as quantities
 from rocking.model.block import Block
 from rocking.model.system import NO_BRACES, State, System, check_below_flat, check_start, system_of
@@ -71,10 +72,21 @@ class HarmonicView(View):
 
     LINKED: ClassVar[tuple[str, ...]] = ("amplitude", "period", "restitution")
     GROUPS: ClassVar[tuple[str, ...]] = GROUPS
-    LABELS: ClassVar[Mapping[str, str]] = {"acceleration_g": "acceleration", "frequency_hz": "frequency"}
+    EXTRA: ClassVar[Mapping[str, Field]] = {
+        "frequency_hz": Field(
+            number(0.0, math.inf),
+            symbol="f",
+            words="frequency",
+            unit="Hz",
+            title="Frequency of the base motion, in Hz",
+            group=SHAKING,
+            only="si",
+        )
+    }
+    LABELS: ClassVar[Mapping[str, str]] = {"frequency_hz": "frequency"}
 
     amplitude: float = quantity(quantities.AMPLITUDE, 2.0, group=SHAKING)
-    period: float = quantity(quantities.PERIOD, 1.0, group=SHAKING)
+    period: float = quantity(quantities.PERIOD, 1.0, group=SHAKING, only="normalised")
     restitution: float = quantity(quantities.RESTITUTION, 0.925, group=BLOCK)
     phase: float = quantity(quantities.PHASE, 0.0, group=SHAKING)
     angle: float = quantity(
@@ -107,6 +119,7 @@ class HarmonicView(View):
         optional(number(*quantities.CRITICAL_ANGLE.range)),
         title="Critical angle θcr in rad, for the full equation of motion; empty for a slender block and small angles",
         group=BLOCK,
+        only="normalised",
     )
     amplitudes: Span = axis(Span(0.0, 16.0), *quantities.AMPLITUDE.range, resolved, ENDS)
     periods: Span = axis(Span(0.2, 3.0), *quantities.PERIOD.range, resolved, ENDS)
@@ -129,8 +142,26 @@ class HarmonicView(View):
         title="Number of forcing cycles shown in the time history and the phase portrait",
     )
     curves: tuple[str, ...] = entry((), words(*theory_curves.CURVES))
-    height: float | None = entry(None, optional(number(*quantities.SIZES)))
-    width: float | None = entry(None, optional(number(*quantities.SIZES)))
+    height: float | None = entry(
+        None,
+        optional(number(*quantities.SIZES)),
+        symbol="H",
+        words="height",
+        unit="m",
+        title="Height of the block, in m",
+        group=BLOCK,
+        only="si",
+    )
+    width: float | None = entry(
+        None,
+        optional(number(*quantities.SIZES)),
+        symbol="B",
+        words="width",
+        unit="m",
+        title="Width of the block in the direction of the base motion, in m",
+        group=BLOCK,
+        only="si",
+    )
 
     @property
     def system(self) -> System:
@@ -153,6 +184,59 @@ class HarmonicView(View):
         return Block(self.height, self.width, self.restitution)
 
     @property
+    def units(self) -> Units:
+        """Units of the page: SI with a block."""
+        return Units(self.block, self.period)
+
+    @property
+    def shown(self) -> dict[str, str]:
+        """Text of each field on the page, in its units."""
+        return self.fields | self.units.texts(asdict(self, recurse=False))
+
+    def changed(self, typed: Mapping[str, str]) -> HarmonicView:
+        """Return the view with new values of some fields, in the units of the page.
+
+        A first block keeps the normalised system. Another block has Housner's coefficient of restitution, and the values in SI
+        are kept.
+
+        Parameters
+        ----------
+        typed : mapping of str to str
+            Field names and their text. With a block, the period is in s, and `frequency_hz` replaces it.
+
+        Raises
+        ------
+        Refused
+            If a field is invalid, with one message per field.
+        """
+        sides = {name: typed[name] for name in ("height", "width") if name in typed}
+        read, refused = read_fields(self.readers(), sides, self.labels())
+        if refused:
+            raise Refused(refused)
+        view = evolve(self, **read)
+        block = view.block
+        if block is not None and block != self.block:
+            angle = None if self.critical_angle is None else block.critical_angle
+            view = evolve(view, critical_angle=angle)
+            if self.block is not None:
+                view = evolve(view, restitution=self._housner(block))
+                kept = self.units.texts(asdict(self, recurse=False))
+                typed = {name: text for name, text in kept.items() if name != "frequency_hz"} | dict(typed)
+        labels = self.labels() if block is None else {**self.labels(), "amplitude": "acceleration"}
+        rest = {name: text for name, text in typed.items() if name not in sides}
+        read, refused = read_fields({**self.readers(), **view.units.readers(resolved, ENDS)}, rest, labels)
+        if refused:
+            raise Refused(refused)
+        period = read.pop("frequency_hz", None)
+        return evolve(view, **(read if period is None else read | {"period": period})).checked()
+
+    def _housner(self, block: Block) -> float:
+        try:
+            return Block(block.height, block.width).restitution
+        except Refusal as error:
+            raise self.refused(error) from None
+
+    @property
     def fixed(self) -> dict[str, float]:
         """Parameters that are constant over the map, by name."""
         names = ["restitution", "phase", "angle", "velocity"]
@@ -164,13 +248,13 @@ class HarmonicView(View):
 
     @property
     def map_axes(self) -> Axes:
-        """Axes of the map of responses."""
-        return Axes(self.periods, self.amplitudes)
+        """Axes of the map of responses, in the units of the page."""
+        return Axes(*(self.units.shown(name, getattr(self, name)) for name in ("periods", "amplitudes")))
 
     @property
     def basin_axes(self) -> Axes:
-        """Axes of the basin map."""
-        return Axes(self.angles, self.velocities)
+        """Axes of the basin map, in the units of the page."""
+        return Axes(*(self.units.shown(name, getattr(self, name)) for name in ("angles", "velocities")))
 
     @property
     def varied(self) -> Span:
@@ -203,7 +287,8 @@ class HarmonicView(View):
         try:
             check_start(view.system, view.start)
         except ValueError as error:
-            raise Refused({"angle": str(error)}) from None
+            unit = "" if self.block is None else ", in units of the critical angle"
+            raise Refused({"angle": f"{error}{unit}"}) from None
         return view
 
     def _with_angle_of_block(self) -> HarmonicView:
@@ -217,62 +302,3 @@ class HarmonicView(View):
 
 
 DEFAULT = HarmonicView()
-FORCED = {
-    "height": number(*quantities.SIZES),
-    "width": number(*quantities.SIZES),
-    "acceleration": number(0.0, 1e6),
-    "frequency_hz": number(1e-6, 1e6),
-}
-"""Readers of the form of a block in SI units."""
-
-
-def in_metres(view: HarmonicView, typed: Mapping[str, str]) -> HarmonicView:
-    """Return the view with a block and its forcing in SI units.
-
-    Parameters
-    ----------
-    view : HarmonicView
-        Current view.
-    typed : mapping of str to str
-        Text of `height` and `width` in m, `acceleration` in the `unit` "g" or "m/s²", and `frequency_hz` in Hz.
-
-    Returns
-    -------
-    HarmonicView
-        New view, with Housner's coefficient of restitution. Its map includes the new system. A critical angle becomes that
-        of the block.
-
-    Raises
-    ------
-    Refused
-        If a field is invalid, with one message per field.
-    """
-    read, invalid = read_fields(FORCED, {name: typed.get(name, "") for name in FORCED}, view.labels())
-    if invalid:
-        raise Refused(invalid)
-    size = "acceleration_g" if typed.get("unit") == "g" else "acceleration"
-    try:
-        block = Block(read["height"], read["width"])
-        system = block.system(**{size: read["acceleration"]}, frequency_hz=read["frequency_hz"])
-    except Refusal as error:
-        raise HarmonicView.refused(error) from None
-    forcing = system.periodic
-    requested = attrs.evolve(
-        view,
-        amplitude=forcing.amplitude,
-        period=forcing.period,
-        restitution=system.restitution,
-        height=block.height,
-        width=block.width,
-        critical_angle=None if view.critical_angle is None else block.critical_angle,
-        amplitudes=_reaching(view.amplitudes, forcing.amplitude, quantities.AMPLITUDE.range[1]),
-        periods=_reaching(view.periods, forcing.period, quantities.PERIOD.range[1]),
-    )
-    return requested.checked()
-
-
-def _reaching(span: Span, value: float, most: float) -> Span:
-    """Return the range, extended if necessary to contain a value."""
-    if span.low <= value <= span.high:
-        return span
-    return Span(min(span.low, value * 0.8), min(max(span.high, value * 1.25), most))

@@ -206,7 +206,7 @@ class Session:
         due = {job.name: job for job in self.JOBS if changed(*job.needs)}
         started = [job for job in due.values() if job.within not in due]
         renewed = {name for job in started for name in job.renews}
-        parts = {"address": new.address, "fields": new.fields, "push": push}
+        parts = {"address": new.address, "fields": new.shown, "push": push}
         void = {"moved": "verdict" in renewed, "renewed": sorted(renewed - {"verdict"})}
         self.link.send("view", parts | void | self.description())
         for job in started:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -35,11 +34,13 @@ def verdict(result: Verdict, block: Block | None) -> dict[str, Any]:
         hits = [("impacts", result.impacts_per_period), ("brace impacts", result.brace_hits_per_period)]
         facts += [(f"{what} per period", impacts(number)) for what, number in hits if number != 0]
     if result.kind != Kind.OVERTURNED:
-        facts.append(("largest |Θ|", f"{result.peak:.6g}" + _reach(result.peak, block)))
+        facts.append(_reach(result.peak, block))
     if result.multipliers is not None:
         facts.append(("Floquet multipliers", _pair(*result.multipliers)))
     if result.exponent is not None:
-        facts.append(("largest Lyapunov exponent λ₁", exponent(result.exponent, result.exponent_error)))
+        rate, unit = (1.0, "τ") if block is None else (block.frequency_parameter, "s")
+        error = result.exponent_error and rate * result.exponent_error
+        facts.append(("largest Lyapunov exponent λ₁", exponent(rate * result.exponent, error, unit)))
     facts.append(("simulated", counted(result.cycles, "cycle")))
     return {
         "kind": str(result.kind),
@@ -74,29 +75,26 @@ def impacts(number: int | None) -> str:
     return "infinitely many" if number is None else f"{number:,}"
 
 
-def exponent(value: float, error: float | None) -> str:
+def exponent(value: float, error: float | None, unit: str) -> str:
     """Write an exponent with its error."""
     if value == -math.inf:
         return "−∞ (superstable)"
-    return f"{_signed(value)} ± {error:.2g} per τ" if error else f"{_signed(value)} per τ"
+    return f"{_signed(value)} ± {error:.2g} per {unit}" if error else f"{_signed(value)} per {unit}"
 
 
 def _physical(forcing: Harmonic, block: Block) -> Facts:
-    """Return the forcing in SI units, and the SI values of the normalised units."""
+    """Return the forcing and the block in SI units."""
     acceleration, seconds = block.acceleration(forcing.amplitude), block.seconds(forcing.period)
     base = f"{acceleration:.4g} m/s² ({acceleration / GRAVITY:.4g} g), {seconds:.4g} s ({1 / seconds:.4g} Hz)"
-    units = (
-        f"A: {block.acceleration(1.0):.4g} m/s², τ: {block.seconds(1.0):.4g} s, Θ: {block.degrees(1.0):.4g}°"
-    )
-    return [("forcing", base), ("unit of", units)]
+    size = f"{block.size}, θcr {block.degrees(1.0):.4g}°, Housner’s e {block.housner_restitution:.4g}"
+    return [("forcing", base), ("block", size)]
 
 
-def _reach(angle: float, block: Block | None) -> str:
-    return (
-        ""
-        if block is None
-        else f" ({block.degrees(angle):.3g}°, top displacement {block.top_displacement(angle):.3g} m)"
-    )
+def _reach(angle: float, block: Block | None) -> tuple[str, str]:
+    if block is None:
+        return "largest |Θ|", f"{angle:.6g}"
+    top = f"top displacement {block.top_displacement(angle):.3g} m"
+    return "largest |θ|", f"{block.degrees(angle):.4g}° ({angle:.4g} θcr), {top}"
 
 
 def _signed(value: float) -> str:
@@ -150,37 +148,76 @@ def _entry(name: str, colour: str, look: palette.Look, share: float, done: bool)
 
 
 def python(view: HarmonicView) -> str:
-    """Return Python code that reproduces the view."""
-    lines = ["import numpy as np", "import rocking as rk", ""]
+    """Return Python code that reproduces the view, in its units."""
     phase = "" if view.phase == 0.0 else f", phase={view.phase!r}"
+    if view.block is None:
+        lines, limits = _normalised_code(view, phase), view.fields
+    else:
+        lines, limits = _code_in_si(view, view.block, phase), view.shown
+
+    def axis(ranges: str) -> str:
+        low, _, high = limits[ranges].partition(":")
+        grid = f"np.linspace({low}, {high}, 101)"
+        return grid if view.block is None else AXES_IN_SI[ranges].format(grid)
+
+    varied = "amplitudes" if view.vary == "amplitude" else "periods"
+    return "\n".join(
+        [
+            "import numpy as np",
+            "import rocking as rk",
+            "",
+            *lines,
+            "print(rk.classify(system, start))",
+            f"motion = rk.simulate(system, start, cycles={view.first + view.cycles})",
+            f"basin = rk.basin_map(system, angle={axis('angles')}, velocity={axis('velocities')}, boundary_runs=0)",
+            f"diagram = rk.orbit_diagram(system, start, {view.vary}={axis(varied)})",
+            "responses = rk.parametric_map(",
+            "    system,",
+            "    start,",
+            f"    amplitude={axis('amplitudes')},",
+            f"    period={axis('periods')},",
+            ")",
+        ]
+    )
+
+
+AXES_IN_SI = {
+    "amplitudes": "block.amplitude({})",
+    "periods": "block.time({})",
+    "angles": "block.angle(degrees={})",
+    "velocities": "block.velocity(np.radians({}))",
+}
+"""Code that makes an axis in the units of the screen normalised."""
+
+
+def _normalised_code(view: HarmonicView, phase: str) -> list[str]:
+    """Return the lines that make system and initial state."""
     braces = ""
     if view.brace_angle is not None:
         braces = f", braces=rk.Braces({view.brace_angle!r}, {view.brace_restitution!r})"
     angle = "" if view.critical_angle is None else f", critical_angle={view.critical_angle!r}"
-    lines += [
+    return [
         f"forcing = rk.Harmonic({view.amplitude!r}, period={view.period!r}{phase})",
         f"system = rk.System(forcing, restitution={view.restitution!r}{braces}{angle})",
         f"start = rk.State({view.angle!r}, {view.velocity!r})",
-        "print(rk.classify(system, start))",
-        f"motion = rk.simulate(system, start, cycles={view.first + view.cycles})",
-        f"basin = rk.basin_map(system, angle={_axis(view.angles)}, velocity={_axis(view.velocities)}, boundary_runs=0)",
-        f"diagram = rk.orbit_diagram(system, start, {view.vary}={_axis(view.varied)})",
-        "responses = rk.parametric_map(",
-        "    system,",
-        "    start,",
-        f"    amplitude={_axis(view.amplitudes)},",
-        f"    period={_axis(view.periods)},",
-        ")",
     ]
-    if view.block is not None:
-        lines.insert(
-            3, f"block = rk.Block({view.height!r}, {view.width!r}, restitution={view.restitution!r})"
-        )
-    return "\n".join(lines)
 
 
-def _axis(span: Any) -> str:
-    return f"np.linspace({span.low!r}, {span.high!r}, 101)"
+def _code_in_si(view: HarmonicView, block: Block, phase: str) -> list[str]:
+    """Return the lines that make block, system and initial state."""
+    shown, braces = view.shown, ""
+    if view.brace_angle is not None:
+        angle = f"block.angle(degrees={shown['brace_angle']})"
+        braces = f", braces=rk.Braces({angle}, {view.brace_restitution!r})"
+    given = block.restitution != block.housner_restitution
+    restitution = f", restitution={view.restitution!r}" if given else ""
+    model = "" if view.critical_angle is None else ', model="full"'
+    forcing = f"acceleration={shown['amplitude']}, frequency_hz={shown['frequency_hz']}"
+    return [
+        f"block = rk.Block({block.height!r}, {block.width!r}{restitution})",
+        f"system = block.system({forcing}{phase}{braces}{model})",
+        f"start = rk.State(block.angle(degrees={shown['angle']}), block.velocity(np.radians({shown['velocity']})))",
+    ]
 
 
 def commands(view: HarmonicView) -> str:
@@ -216,31 +253,8 @@ def _in_metres(view: HarmonicView, block: Block) -> tuple[str, str]:
 
     The map is over the period in s, because even steps of the frequency are not even steps of the period.
     """
-
-    def acceleration(amplitude: float) -> str:
-        return _digits(amplitude, block.acceleration, block.amplitude)
-
-    def hertz(period: float) -> str:
-        return _digits(
-            period, lambda each: 1 / block.seconds(each), lambda each: math.tau / block.frequency(each)
-        )
-
-    def seconds(period: float) -> str:
-        return _digits(period, block.seconds, block.time)
-
-    size = f"--height {written(block.height)} --width {written(block.width)}"
-    across = f"{seconds(view.periods.low)}:{seconds(view.periods.high)}:101"
-    up = f"{acceleration(view.amplitudes.low)}:{acceleration(view.amplitudes.high)}:101"
+    size, shown = f"--height {written(block.height)} --width {written(block.width)}", view.shown
     return (
-        f"{size} --acceleration {acceleration(view.amplitude)} --frequency-hz {hertz(view.period)}",
-        f"{size} --acceleration {up} --period-s {across}",
+        f"{size} --acceleration {shown['amplitude']} --frequency-hz {shown['frequency_hz']}",
+        f"{size} --acceleration {shown['amplitudes']}:101 --period-s {shown['periods']}:101",
     )
-
-
-def _digits(value: float, physical: Callable[[float], float], normalised: Callable[[float], float]) -> str:
-    """Write an SI value with the fewest digits that give the normalised value back, so that a typed 3 stays 3."""
-    for digits in (15, 16, 17):
-        text = f"{physical(value):.{digits}g}"
-        if normalised(float(text)) == value:
-            break
-    return text
