@@ -133,6 +133,7 @@ def test_case_of_the_paper_shows_its_figure(visit):
     visitor = visit()
     visitor.open()
     visitor.page.click("text=Gallery")
+    visitor.until("[...document.querySelectorAll('.cases path')].every(each => each.getTotalLength() > 100)")
     visitor.see("gallery")
     visitor.page.click("[data-case=figure-2b]")
     visitor.until("location.search.includes('first=600')")
@@ -324,7 +325,8 @@ def test_units_of_fields_figures_tables_and_link_are_those_chosen_at_the_top(vis
 
 
 # Controls whose middle belongs to something else
-COVERED = """within => [...document.querySelector(within).querySelectorAll("button, input, select")].filter(each => each.checkVisibility()).filter(each => {
+COVERED = """within => [...document.querySelector(within).querySelectorAll("button, input, select")].filter(each => {
+    if (!each.checkVisibility()) return false;
     each.scrollIntoView({ block: "center" });
     const box = each.getBoundingClientRect();
     return document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2) !== each;

@@ -4,6 +4,7 @@ import asyncio
 import itertools
 import json
 import math
+import re
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import partial
@@ -180,9 +181,9 @@ def test_acceleration_may_be_given_in_g():
 
 SI = st.builds(
     HarmonicView,
-    amplitude=inside(0, 1000),
+    amplitude=st.just(0.0) | inside(1e-9, 1000),
     period=inside(0.01, 6000),
-    velocity=inside(-1000, 1000),
+    velocity=st.just(0.0) | inside(1e-9, 1000),
     amplitudes=spans(0, 1000),
     periods=spans(0.01, 6000),
     height=inside(0.01, 100),
@@ -241,6 +242,20 @@ def test_click_on_the_map_of_a_block_selects_its_forcing():
     clicked = alone(run())
     assert clicked.block.acceleration(clicked.amplitude) == pytest.approx(10.0, rel=5e-3)
     assert clicked.block.seconds(clicked.period) == pytest.approx(0.5, rel=5e-3)
+
+
+def test_case_of_the_gallery_keeps_the_block_of_the_view():
+    async def run():
+        workers = Workers()
+        session = HarmonicSession(Document(), workers)
+        session.view = in_si()
+        case, _ = session.answer("case", {"name": "figure-2b"})
+        workers.close()
+        return case
+
+    case = alone(run())
+    assert case.system == presets.BY_NAME["figure-2b"].view.system
+    assert (case.height, case.width) == (2.0, 0.5)
 
 
 def test_moving_block_is_drawn_in_metres():
@@ -862,6 +877,23 @@ def test_case_of_the_gallery_is_what_it_says(case):
     kinds, period = KINDS[case.name]
     assert verdict.kind in kinds.split(" or ")
     assert verdict.period == period
+
+
+@CASES
+def test_case_of_the_gallery_has_a_picture_of_its_phase_portrait(case):
+    drawn = harmonic_motion.pictures()[case.name]
+    assert re.fullmatch(r"M\d+ \d+(L\d+ \d+)*", drawn)
+    places = np.array([each.split() for each in drawn[1:].split("L")], int)
+    assert places.min() >= 0
+    assert (places.max(axis=0) <= harmonic_motion.PICTURE).all()
+    assert (np.ptp(places, axis=0) > 0.8 * np.array(harmonic_motion.PICTURE)).all()
+    portrait = harmonic_motion.traces(case.view)["portrait"]
+    left, right, bottom, top = portrait["ranges"]
+    start = (
+        (portrait["line"]["angle"][0] - left) / (right - left),
+        (top - portrait["line"]["velocity"][0]) / (top - bottom),
+    )
+    assert places[0] == pytest.approx(np.array(start) * harmonic_motion.PICTURE, abs=0.51)
 
 
 @CASES

@@ -1,7 +1,7 @@
 const page = {
   figures: ["map", "basin", "history", "portrait", "section", "spectrum", "diagram"],
   maps: ["map", "basin"],
-  messages: { view: show, verdict: conclude, legend, progress, basin: attractors, refused: refuse },
+  messages: { view: show, verdict: conclude, legend, progress, basin: attractors, gallery, refused: refuse },
 };
 const still = new Set(); // maps whose ranges the page itself is setting
 
@@ -169,6 +169,10 @@ for (const input of all("#fields input")) {
   });
 }
 for (const box of all("#curves input")) box.onchange = () => ask("fields", { curves: all("#curves input:checked").map(each => each.name).join(",") });
+document.querySelector("[data-opens=gallery]").addEventListener("click", () => { if (!link.gallery) ask("gallery", {}, false); });
+function gallery({ pictures }) {
+  for (const [name, path] of Object.entries(pictures)) document.querySelector(`[data-case="${name}"] path`).setAttribute("d", path);
+}
 find("vary").onchange = event => ask("fields", { vary: event.target.value });
 
 const slid = push => {

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from asyncio import CancelledError
 from collections.abc import Iterable
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
 
+from rocking.explorer import presets
 from rocking.explorer.figures import no_image
 from rocking.explorer.harmonic_maps import PERIOD
 from rocking.explorer.harmonic_units import Contents
@@ -52,6 +53,8 @@ VALUES, TRANSIENT, KEPT = 240, 200, 32
 """Orbit diagram: parameter values, cycles discarded at each value and cycles recorded."""
 PIECE_HITS = 3e5
 """Approximate number of impacts per part of an orbit diagram. The computation can stop only between two parts."""
+PICTURE, PICTURE_POINTS = (168, 112), 1_200
+"""Width and height of a picture of the gallery, in its own units, and about the largest number of its points."""
 DRAWN = 4.0, 4.0
 """Height, in m, and slenderness H/B of the moving block, where they are not given."""
 FARTHEST = 1e6
@@ -157,6 +160,22 @@ def _around(values: np.ndarray) -> tuple[float, float]:
     size = max(abs(low), abs(high))
     room = ROOM * (high - low) if high - low > SAME * size else max(0.5 * size, 0.1)
     return low - room, high + room
+
+
+@cache
+def pictures() -> dict[str, str]:
+    """Return a small phase portrait of each case of the gallery, as the path of an SVG picture."""
+    return {case.name: _path(traces(case.view)["portrait"]) for case in presets.CASES}
+
+
+def _path(portrait: Contents) -> str:
+    left, right, bottom, top = portrait["ranges"]
+    angle, velocity = (portrait["line"][name] for name in ("angle", "velocity"))
+    wide, high = PICTURE
+    across, up = (angle - left) / (right - left) * wide, (top - velocity) / (top - bottom) * high
+    places = np.rint(np.column_stack([across, up])).astype(int)[:: max(len(angle) // PICTURE_POINTS, 1)]
+    moves = places[np.append(True, np.any(np.diff(places, axis=0) != 0, axis=1))]
+    return "M" + "L".join(f"{x} {y}" for x, y in moves.tolist())
 
 
 def scene(view: HarmonicView) -> dict[str, float]:

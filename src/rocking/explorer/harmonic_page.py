@@ -80,11 +80,18 @@ class HarmonicSession(Session):
         return self.view.units.shown(self.view.vary, self.view.varied)
 
     def answer(self, what: str, typed: dict[str, str]) -> tuple[Any, dict[str, str]]:
-        """Return the requested view; a request of this page is a case of the gallery."""
+        """Return the requested view, or None; requests of this page are a case of the gallery, and its pictures."""
+        if what == "gallery":
+            self.jobs.start("gallery", self._send_pictures)
+            return None, {}
         if what == "case" and typed.get("name") in presets.BY_NAME:
             case, shown = presets.BY_NAME[typed["name"]].view, self.view
             return attrs.evolve(case, height=shown.height, width=shown.width), {}
         return super().answer(what, typed)
+
+    async def _send_pictures(self, stop: np.ndarray) -> None:
+        pictures = await self.workers.later(motion.pictures)
+        await self.change(lambda: self.link.send("gallery", {"pictures": pictures}))
 
     # axes and marks
 

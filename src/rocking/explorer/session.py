@@ -42,6 +42,7 @@ class Link(DataModel):
     legend = String(default="")
     progress = String(default="")
     basin = String(default="")
+    gallery = String(default="")
     saved = Anything()
     refused = String(default="")
 
