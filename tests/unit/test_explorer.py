@@ -204,6 +204,13 @@ def test_texts_in_si_give_the_values_back(view):
         assert (each.high > each.low) == (span.high > span.low)
 
 
+@given(SI, st.sampled_from(["amplitudes", "periods", "angles", "velocities"]))
+def test_narrowest_zoom_of_a_block_is_accepted(view, name):
+    low = view.units.shown(name, getattr(view, name)).low
+    again = view.changed({name: f"{low!r}:{low + view.narrowest(name)!r}"})
+    assert np.unique(np.linspace(getattr(again, name).low, getattr(again, name).high, POINTS)).size == POINTS
+
+
 def test_figures_and_tables_of_a_block_are_in_si():
     shown, block = in_si(amplitude="4", frequency_hz="2.5"), rk.Block(2.0, 0.5)
     plain, units = attrs.evolve(shown, height=None, width=None), shown.units

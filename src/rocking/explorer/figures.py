@@ -260,14 +260,17 @@ class Axes:
         corner = {"x": [left - wide / 2], "y": [bottom - high / 2]}
         return {"image": [colours], **corner, "w": [right - left + wide], "h": [top - bottom + high]}
 
-    def place(self, made: Any, names: Sequence[str], limits: Sequence[Span], closest: Any) -> None:
-        """Set ranges and labels of a map, and the limits of pan and zoom; `closest` gives the narrowest range of an axis."""
+    def place(
+        self, made: Any, names: Sequence[str], limits: Sequence[Span], narrowest: Sequence[float]
+    ) -> None:
+        """Set ranges and labels of a map, and the limits of pan and zoom; `narrowest` are the shortest ranges of both axes."""
         parts = (made.x_range, made.below[0], self.across), (made.y_range, made.left[0], self.up)
-        for (range_, axis, span), name, limit, offset in zip(parts, names, limits, self.base, strict=True):
+        axes = zip(parts, names, limits, narrowest, self.base, strict=True)
+        for (range_, axis, span), name, limit, least, offset in axes:
             range_.update(
                 start=span.low - offset,
                 end=span.high - offset,
                 bounds=(limit.low - offset, limit.high - offset),
-                min_interval=closest(span),
+                min_interval=least,
             )
             axis.axis_label = f"{name} − {offset!r}" if offset else name

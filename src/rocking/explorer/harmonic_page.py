@@ -16,7 +16,7 @@ from rocking.explorer.fields import Span, written
 from rocking.explorer.figures import Axes
 from rocking.explorer.harmonic_maps import Attractors, Basins, Responses
 from rocking.explorer.harmonic_units import CONVERTED, Contents, axes_of
-from rocking.explorer.harmonic_view import DEFAULT, POINTS, HarmonicView, closest, nearby
+from rocking.explorer.harmonic_view import DEFAULT, POINTS, HarmonicView, nearby
 from rocking.explorer.page import Page
 from rocking.explorer.refinement import Picture, Refinement
 from rocking.explorer.session import Job, Session
@@ -104,7 +104,7 @@ class HarmonicSession(Session):
                 labels = [
                     units.label(each) if name == "map" else units.start_label(each) for each in MAPS[name]
                 ]
-                self._axes(name).place(made, labels, limits, closest)
+                self._axes(name).place(made, labels, limits, [view.narrowest(each) for each in RANGES[name]])
         if changed(*sizes):
             for made in self.others:
                 made.below[0].axis_label, made.left[0].axis_label = map(
@@ -128,7 +128,7 @@ class HarmonicSession(Session):
         return {
             "si": view.block is not None,
             "full": "" if view.block is None else written(view.block.critical_angle),
-            "planes": {"map": _plane(view.map_axes), "basin": _plane(view.basin_axes)},
+            "planes": {name: self._plane(name) for name in MAPS},
             "whole": {name: {each: whole[each] for each in ranges} for name, ranges in RANGES.items()},
             "slider": [slider.low, slider.high, units.shown(view.vary, getattr(view, view.vary))],
             "headings": units.headings(view.vary),
@@ -136,6 +136,14 @@ class HarmonicSession(Session):
             "python": texts.python(view),
             "commands": texts.commands(view),
         }
+
+    def _plane(self, name: str) -> dict[str, Any]:
+        """Return offsets and ranges of a map, and whether it is at the zoom limit of double precision."""
+        axes, narrowest = self._axes(name), map(self.view.narrowest, RANGES[name])
+        deepest = any(
+            span.width <= least * 1.01 for span, least in zip((axes.across, axes.up), narrowest, strict=True)
+        )
+        return {"base": list(axes.base), "ranges": list(axes.ranges), "deepest": deepest}
 
     def _draw(self, view: HarmonicView, **contents: Contents) -> None:
         """Draw the contents of figures in the units of the view."""
@@ -267,12 +275,6 @@ class HarmonicSession(Session):
 def _first(view: HarmonicView) -> int:
     """Return the cycles per point of a first map; the estimate assumes that all points cost as much as the selected one."""
     return motion.affordable(view, harmonic_maps.FIRST, FIRST_HITS)
-
-
-def _plane(axes: Axes) -> dict[str, Any]:
-    """Return offsets and ranges of a map, and whether it is at the zoom limit of double precision."""
-    deepest = any(span.width <= closest(span) * 1.01 for span in (axes.across, axes.up))
-    return {"base": list(axes.base), "ranges": list(axes.ranges), "deepest": deepest}
 
 
 def _drawn_map(picture: Picture, view: HarmonicView, axes: Axes) -> dict[str, Any]:

@@ -188,6 +188,13 @@ class HarmonicView(View):
         """Units of the page: SI with a block."""
         return Units(self.block, self.period)
 
+    def narrowest(self, name: str) -> float:
+        """Return the smallest length of a range that double precision resolves, normalised and in the units of the page."""
+        span, units = getattr(self, name), self.units
+        if units.block is None:
+            return closest(span)
+        return max(2 * closest(units.shown(name, span)), 1.01 * units.shown(name, 1.0) * closest(span))
+
     @property
     def shown(self) -> dict[str, str]:
         """Text of each field on the page, in its units."""
