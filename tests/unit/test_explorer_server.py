@@ -5,6 +5,7 @@ import base64
 import json
 import logging
 import re
+import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
@@ -335,3 +336,30 @@ def test_port_zero_is_any_that_is_free_and_one_in_use_is_refused():
                 local_server(Application(FunctionHandler(lambda document: None)), one)
 
     run(visit())
+
+
+FIGURES = """
+import sys
+import numpy as np
+from rocking.explorer import harmonic_motion as motion
+from rocking.explorer.harmonic_maps import Attractors
+from rocking.explorer.harmonic_view import DEFAULT as view
+from rocking.explorer.jobs import Workers
+from rocking.explorer.refinement import Refinement
+from rocking.explorer.server import serve
+
+serve(0)
+before = set(sys.modules)
+stop, section = np.zeros(1, np.int64), motion.Section(view)
+section.grow(300)
+motion.verdict(view), motion.traces(view), motion.spectrum(view), motion.diagram(view, stop), section.drawn(1)
+fixed = {"restitution": view.restitution, "phase": 0.0, "amplitude": view.amplitude, "period": view.period}
+Refinement(Attractors(view.angles, view.velocities, fixed, 17), Workers(), stop).coarse()
+print(*sorted(name for name in set(sys.modules) - before if not name.startswith("rocking.")))
+"""
+
+
+def test_threads_load_no_package_that_another_thread_may_load_at_once():
+    """A package that two threads load at once can remain half loaded, so that no spectrum is drawn any more."""
+    done = subprocess.run([sys.executable, "-c", FIGURES], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == []

@@ -12,6 +12,7 @@ import traceback
 from base64 import b64encode
 from collections.abc import Callable, Mapping
 from functools import cache, partial
+from importlib import import_module
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
@@ -43,6 +44,8 @@ LOGGERS = ("bokeh.server.protocol_handler", "bokeh.server.views.ws", "tornado.ap
 """Loggers of failed messages and connections."""
 MAX_MESSAGE = 64_000_000
 """Maximum size of a message of a page, in bytes: larger than the largest file."""
+LOADED_FIRST = ("scipy.signal", "scipy.spatial")
+"""Modules that figures load when they are first drawn: two threads that load them at once can leave both broken."""
 PATIENCE = 30.0
 """Time limit for the headers of a request, and for its body, s."""
 UNUSED = 5_000
@@ -89,6 +92,8 @@ def serve(port: int = 0) -> LocalServer:
         If the compiled kernels cannot be used.
     """
     simulate(System(Harmonic(0.0, period=1.0), 0.0), cycles=1)  # opens the kernels before a page is shown
+    for name in LOADED_FIRST:
+        import_module(name)
     workers = Workers()
     open_page = {address: partial(page.open, workers=workers) for address, page in PAGES.items()}
     pages = {address: Application(FunctionHandler(opened)) for address, opened in open_page.items()}
