@@ -290,7 +290,6 @@ PAGE = Page(
     HarmonicSession,
     constants={
         "looks": [look.name for look in palette.LOOKS],
-        "colours": [look.colour for look in palette.LOOKS],
         "grounds": [each.brief for each in Criterion],
         "levels": [each.level for each in Criterion],
     },
