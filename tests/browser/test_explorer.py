@@ -665,13 +665,13 @@ EDGES = """() => [...document.querySelectorAll(".plot")].map(each => each.getBou
 
 @pytest.mark.parametrize("page", ["", "ground-motion"])
 def test_change_of_colours_leaves_no_line_at_the_edges_of_a_figure(visit, page):
-    visitor = visit(1280, 1400)
+    visitor = visit(1280, 1600)
     visitor.open(page)
     visitor.finished()
     visitor.page.click("#theme")
     visitor.page.wait_for_timeout(500)
     screen = Image.open(io.BytesIO(visitor.page.screenshot())).convert("RGB")
-    paper = screen.getpixel((2, 1390))
+    paper = screen.getpixel((2, 1590))
     for left, top, _, height in visitor.page.evaluate(EDGES):
         column = [screen.getpixel((round(left) + across, round(top + height) - 12)) for across in (0, 1)]
         row = [screen.getpixel((round(left) + 3, round(top) + down)) for down in (0, 1)]
