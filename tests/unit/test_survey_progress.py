@@ -100,7 +100,10 @@ SYSTEM = system_with(amplitude=0.5, restitution=0.9)
             "36 points in 1 tile, ",
             lambda shown: rk.sensitivity(RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown),
         ),
-        ("response diagram", lambda shown: rk.response_diagram(SYSTEM, amplitude=[0.4, 0.5], progress=shown)),
+        (
+            "2 points in 1 tile, ",
+            lambda shown: rk.response_diagram(SYSTEM, amplitude=[0.4, 0.5], progress=shown),
+        ),
         ("orbit diagram", lambda shown: rk.orbit_diagram(SYSTEM, amplitude=[0.4, 0.5], progress=shown)),
     ],
 )
