@@ -36,7 +36,7 @@ class Page:
     Attributes
     ----------
     name : str
-        Name of its template and its script.
+        Name of its template, after the common one, and of its script.
     title : str
         Title of the document.
     session : type
@@ -59,7 +59,7 @@ class Page:
     @cached_property
     def template(self) -> str:
         """Template of the document."""
-        return text_of(f"{self.name}.html")
+        return text_of("common.html") + text_of(f"{self.name}.html")
 
     @cached_property
     def content(self) -> dict[str, Any]:
