@@ -19,24 +19,32 @@ extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.mathjax",
+    "sphinx.ext.viewcode",
     "sphinx-mathjax-offline",  # MathJax is part of the pages: no request to another host
     "numpydoc",
+    "sphinx_copybutton",
     "attrs_signatures",
     "bars",
     "checked",
     "commands",
     "executed",
+    "names",
     "report",
     "seen",
-    "summary",
     "thumbnails",
 ]
 exclude_patterns = ["images"]
 default_role = "py:obj"  # a public name in a docstring is a link; anything else stays code
 smartquotes = False  # Θ' is a derivative
 
+notebooks = ["notebook"]  # pages whose blocks are run as the cells of a notebook
+
 myst_enable_extensions = ["deflist", "dollarmath"]
 myst_heading_anchors = 3
+
+copybutton_selector = "div:not(.printed) > div.highlight > pre"  # what one types, not what is printed
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
 
 autodoc_preserve_defaults = True
 autodoc_typehints = "none"

@@ -1,11 +1,11 @@
 """Execution of every `python` and `sh` block when its page is built: output and pictures follow the block.
 
+The blocks of a page among ``notebooks`` of the configuration are cells of a notebook: they show what a notebook shows.
 The directive ``{script}`` shows a script: its docstring, its output, its picture and its source.
 The directive ``{figures}`` shows all figures of a paper: the caption, the picture and the source of each.
 """
 
 import ast
-import contextlib
 import inspect
 import json
 import re
@@ -14,13 +14,15 @@ import subprocess
 import sys
 import textwrap
 import time
+from functools import cache
 from pathlib import Path
+from select import select
 from subprocess import PIPE
 
+import kernel
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from PIL import Image
-from sphinx.errors import ExtensionError
 from sphinx.transforms import SphinxTransform
 from sphinx.util import logging
 
@@ -51,13 +53,18 @@ class Executed(SphinxTransform):
             return
         for source in (ROOT / "src").rglob("*.py"):  # the output depends on the package
             self.env.note_dependency(str(source))
-        folder = RUNS / self.env.docname
-        results = run(folder, [(language_of(node), node.astext()) for node in blocks])
-        for block, (printed, pictures) in zip(blocks, results, strict=True):
-            shown = [output(printed)] if printed.strip() else []
-            shown += [picture(folder / name) for name in pictures]
+        folder = new_folder(RUNS / self.env.docname)
+        if self.env.docname in self.config.notebooks:
+            shown = kernel.run(folder, [node.astext() for node in blocks], output, picture)
+        else:
+            results = run(folder, [(language_of(node), node.astext()) for node in blocks])
+            shown = [
+                [*map(output, filter(str.strip, [printed])), *(picture(folder / name) for name in pictures)]
+                for printed, pictures in results
+            ]
+        for block, nodes_after in zip(blocks, shown, strict=True):
             after = block.parent.index(block) + 1
-            block.parent[after:after] = shown
+            block.parent[after:after] = nodes_after
             if block.get("from-script"):
                 block.parent.remove(block)
 
@@ -68,23 +75,32 @@ def language_of(node):
     return language if language in ("python", "sh") and "shown" not in node else None
 
 
+def new_folder(path):
+    """Make an empty folder."""
+    shutil.rmtree(path, ignore_errors=True)
+    path.mkdir(parents=True)
+    return path
+
+
+@cache
+def server():
+    """Start the process that runs the pages; it ends with this one."""
+    command = [sys.executable, Path(__file__).with_name("run_page.py"), "--serve"]
+    return subprocess.Popen(command, stdin=PIPE, stdout=PIPE, text=True)
+
+
 def run(folder, blocks):
     """Return the output of each block and the names of the pictures that it wrote into the folder."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    command, began = [sys.executable, Path(__file__).with_name("run_page.py")], time.monotonic()
-    request = json.dumps(blocks)
-    with subprocess.Popen(command, cwd=folder, stdin=PIPE, stdout=PIPE, stderr=PIPE, text=True) as process:
-        while True:
-            seconds = time.monotonic() - began
-            logger.info("running the %d blocks of %s: %.0f s", len(blocks), folder.name, seconds)
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                printed, errors = process.communicate(request, timeout=3)
-                break
-            request = None  # it is sent once
-    if process.returncode:
-        raise ExtensionError(f"a block of the page {folder.name} fails:\n{errors}")
-    return json.loads(printed)
+    process, began = server(), time.monotonic()
+    print(json.dumps([str(folder), blocks]), file=process.stdin, flush=True)
+    while not select([process.stdout], [], [], 3)[0]:
+        seconds = time.monotonic() - began
+        logger.info("running the %d blocks of %s: %.0f s", len(blocks), folder.name, seconds)
+    results, errors = json.loads(process.stdout.readline())
+    if results is None:  # the other pages are built nevertheless
+        logger.warning("a block of the page %s fails:\n%s", folder.name, errors)
+        return [["", []]] * len(blocks)
+    return results
 
 
 def output(printed):
@@ -105,7 +121,8 @@ def output(printed):
 def picture(path):
     """Return the node of a picture, at its size on paper."""
     with Image.open(path) as image:
-        width = image.width * CSS_PIXELS_PER_INCH // DOTS_PER_INCH
+        dots, _ = image.info.get("dpi", (DOTS_PER_INCH, DOTS_PER_INCH))
+        width = round(image.width * CSS_PIXELS_PER_INCH / dots)
     return nodes.image(
         uri=f"/../{path.relative_to(ROOT).as_posix()}", width=f"{width}px", alt=path.stem.replace("-", " ")
     )
@@ -163,6 +180,7 @@ def figures_of(paper):
 
 
 def setup(app):
+    app.add_config_value("notebooks", [], "env")
     app.add_transform(Executed)
     app.add_directive("script", Script)
     app.add_directive("figures", Figures)

@@ -1,14 +1,13 @@
 """Grids of thumbnails: ``{thumbnails} PAGE`` shows each picture of another page, small, with a link to its place there.
 
-The pictures are those that the blocks and scripts of the other page wrote when it was built. In a reference page the
-picture of the function ``time_history`` is called ``time-history.png`` or ``time-history.gif``. A function that writes a folder
-is shown by the largest picture in it.
+The pictures are those that the blocks and scripts of the other page wrote when it was built. The picture of a function
+``time_history`` of a reference page is called ``time-history.png`` or ``time-history.gif``, and its page writes it. A function that
+writes a folder is shown by the largest picture in it.
 """
 
 import ast
 import inspect
 import re
-from importlib import import_module
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,6 +15,7 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 from entries import sections
 from executed import ROOT, RUNS, figures_of
+from names import document, found
 from PIL import Image
 from sphinx.errors import ExtensionError
 
@@ -25,24 +25,24 @@ SUFFIXES = (".png", ".gif")
 
 
 class Card(NamedTuple):
-    """Thumbnail with its title, its text and its target on the other page."""
+    """Thumbnail with its title, its text and its target."""
 
     picture: Path
     title: str
     text: str
-    anchor: str
+    target: str
 
 
 def cards_of_entries(page):
     """List (title of a section, cards) of a reference page."""
-    for title, names in sections(page):
+    for section in sections(page):
         cards = []
-        for name in names:
-            module, _, short = name.rpartition(".")
-            text = inspect.getdoc(getattr(import_module(module), short)).partition("\n")[0]
-            picture = picture_called(RUNS / page.stem, short.replace("_", "-"))
-            cards.append(Card(picture, short, text.replace("`", ""), name))
-        yield title, cards
+        for name in section.names:
+            short = name.rpartition(".")[2]
+            text = inspect.getdoc(found(name)).partition("\n")[0]
+            picture = picture_called(RUNS / document(name), short.replace("_", "-"))
+            cards.append(Card(picture, short, text.replace("`", ""), f"{document(name)}.html"))
+        yield section.title, cards
 
 
 def cards_of_scripts(page):
@@ -58,7 +58,7 @@ def cards_of_scripts(page):
     for name, description in descriptions.items():
         title = " ".join(inspect.cleandoc(description).partition("\n\n")[0].split()).rstrip(".")
         picture = picture_called(RUNS / page.stem, name.replace("_", "-"))
-        cards.append(Card(picture, title, "", nodes.make_id(name)))
+        cards.append(Card(picture, title, "", f"{page.stem}.html#{nodes.make_id(name)}"))
     return [("", cards)]
 
 
@@ -104,15 +104,13 @@ class Thumbnails(Directive):
         made = []
         for title, cards in groups:
             made += [nodes.rubric("", title)] if title else []
-            made.append(
-                nodes.bullet_list("", *(self.item(docname, card) for card in cards), classes=["thumbnails"])
-            )
+            made.append(nodes.bullet_list("", *map(self.item, cards), classes=["thumbnails"]))
         return made
 
-    def item(self, docname, card):
+    def item(self, card):
         """Make one card: picture and title are the link."""
         small = made_small(card.picture).relative_to(ROOT).as_posix()
-        link = nodes.reference("", "", internal=True, refuri=f"{docname}.html#{card.anchor}")
+        link = nodes.reference("", "", internal=True, refuri=card.target)
         link += nodes.image(uri=f"/../{small}", alt="")
         link += nodes.inline("", card.title, classes=["name"] if card.text else [])
         return nodes.list_item("", nodes.paragraph("", "", link, nodes.inline("", card.text)))

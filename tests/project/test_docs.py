@@ -9,13 +9,14 @@ import pytest
 
 import rocking
 from docs.extensions import command_options
+from docs.extensions.entries import PAGES as REFERENCE
 from docs.extensions.entries import sections
 from rocking.cli.commands import COMMANDS
 from rocking.papers.catalogue import PAPERS
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
-PAGES = sorted(DOCS.rglob("*.md"))
+PAGES = sorted(DOCS.glob("*.md"))
 FRONT = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")]
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 FENCE = re.compile(r"^```(.*?)\n(.*?)^```", re.MULTILINE | re.DOTALL)
@@ -27,6 +28,7 @@ DIRECTIVES = {
     "{command}",
     "{eval-rst}",
     "{figures}",
+    "{names}",
     "{report}",
     "{script}",
     "{shared-options}",
@@ -128,22 +130,14 @@ PUBLIC = {
 }
 
 
-def entries(pages="reference*.md"):
+def entries():
     """The names that the reference documents, in full."""
-    for page in sorted(DOCS.glob(pages)):
-        module = ""
-        for directive, name in re.findall(
-            r"^\.\. (\w+):: ([\w.]+)", page.read_text(encoding="utf-8"), re.MULTILINE
-        ):
-            if directive == "currentmodule":
-                module = name
-            else:
-                yield name if name.startswith("rocking.") else f"{module}.{name}"
+    return [name for page in sorted(DOCS.glob(REFERENCE)) for part in sections(page) for name in part.names]
 
 
 @pytest.mark.parametrize("name", sorted(PUBLIC))
 def test_every_public_name_has_one_entry_in_the_reference(name):
-    assert list(entries()).count(name) == 1
+    assert entries().count(name) == 1
 
 
 def test_every_command_has_its_entry():
@@ -167,25 +161,16 @@ def test_every_option_is_documented_once_for_each_command():
     assert all(len(users) > 1 for users in shared.values())
 
 
-@pytest.mark.parametrize("page", sorted(DOCS.glob("reference-*.md")), ids=name_of)
-def test_every_reference_page_begins_with_a_summary_of_its_entries(page):
-    text = page.read_text(encoding="utf-8")
-    summary = "{command-summary}" if page.stem == "reference-commands" else "{eval-rst}\n.. summary::"
-    assert re.match(rf"# .+\n\n(?:(?!```).+\n)+\n```{re.escape(summary)}\n```\n", text)
-    listed = [name for section in sections(page) for name in section.names]
-    assert listed == list(entries(page.name))
-
-
-def test_every_plot_function_has_a_picture_below_its_entry():
-    """The block below the entry of a function calls it, and writes a picture or a folder that is called like it."""
-    page = (DOCS / "reference-plot.md").read_text(encoding="utf-8")
-    below = re.findall(
-        r"^\.\. autofunction:: (\w+)\n```\n\n[A-Z][^\n]*:\n\n```python\n(.*?)^```",
-        page,
-        re.MULTILINE | re.DOTALL,
-    )
-    assert sorted(name for name, _ in below) == sorted(rocking.plot.__all__)
-    for name, code in below:
+def test_every_plot_function_has_a_picture_and_its_code():
+    """The text about a function is a block that calls it, and that writes a picture or a folder called like it."""
+    texts = {
+        each.name.removeprefix("rocking.plot."): each.text
+        for section in sections(DOCS / "reference-plot.md")
+        for each in section.entries
+    }
+    assert sorted(texts) == sorted(rocking.plot.__all__)
+    for name, text in texts.items():
+        code = re.fullmatch(r"[A-Z][^\n]*:\n\n```python\n(.*)^```", text, re.MULTILINE | re.DOTALL)[1]
         called = name.replace("_", "-")
         assert f"rk.plot.{name}(" in code
         assert re.search(rf'"{called}(?:\.(?:png|gif|\{{suffix\}}))?"', code), name

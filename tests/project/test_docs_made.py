@@ -9,7 +9,7 @@ import pytest
 
 from docs.extensions.checked import faults
 from docs.extensions.command_options import options
-from docs.extensions.entries import sections
+from docs.extensions.entries import listed, sections_of
 
 RUN_PAGE = Path(__file__).parents[2] / "docs" / "extensions" / "run_page.py"
 
@@ -87,6 +87,35 @@ def test_a_font_of_another_host_is_seen_in_a_style(tmp_path):
     assert list(faults(tmp_path)) == ["a.css asks another host for https://example.org/font.woff2"]
 
 
+def serve(requests):
+    done = subprocess.run(
+        [sys.executable, RUN_PAGE, "--serve"],
+        input="".join(f"{json.dumps(request)}\n" for request in requests),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def test_served_pages_have_their_own_names_folders_and_errors(tmp_path):
+    (tmp_path / "a").mkdir()
+    (tmp_path / "b").mkdir()
+    drawn = "import rocking as rk\nrk.plot.save(rk.plot.schematic(), 'block.png')\nprint(rk.__name__)"
+    (first, _), (second, errors), (third, _) = serve(
+        [
+            [str(tmp_path / "a"), [["python", drawn]]],
+            [str(tmp_path / "b"), [["python", "rk"]]],
+            [str(tmp_path / "b"), [["python", "print(1)"], ["python", "print(2)"]]],
+        ]
+    )
+    assert first == [["rocking\n", ["block.png"]]]
+    assert [path.name for path in (tmp_path / "a").iterdir()] == ["block.png"]
+    assert second is None
+    assert "NameError" in errors
+    assert third == [["1\n", []], ["2\n", []]]
+
+
 def test_an_option_is_described_with_its_default():
     described = {one.typed: one for one in options("simulate")}
     assert described["--cycles"].text.endswith(" Default: 200.")
@@ -97,10 +126,55 @@ def test_an_option_is_described_with_its_default():
     assert options("paper")[0].typed == "FIGURE"
 
 
-def test_sections_of_a_page_hold_full_names(tmp_path):
-    page = tmp_path / "page.md"
-    page.write_text(
-        "# Title\n\n## Empty\n\n## Two\n\n.. currentmodule:: rocking.plot\n\n.. autofunction:: save\n\n"
-        ".. autoclass:: rocking.Mode()\n   :members:\n"
-    )
-    assert sections(page) == [("Two", ["rocking.plot.save", "rocking.Mode"])]
+REFERENCE = """\
+# Title
+
+## Nothing
+
+```python
+# no heading
+```
+
+## Two
+
+An introduction.
+
+```{names} rocking
+System
+rocking.model.orbit.Mode
+```
+
+```{names} rocking.plot
+save
+```
+
+A figure:
+
+```python
+# the code
+```
+
+```{names} rocking
+Block
+```
+
+## After
+"""
+
+
+def test_the_text_after_a_list_of_names_is_about_the_last_name():
+    (section,) = sections_of(REFERENCE)
+    assert section.title == "Two"
+    assert section.entries == [
+        ("rocking.System", ""),
+        ("rocking.model.orbit.Mode", ""),
+        ("rocking.plot.save", "A figure:\n\n```python\n# the code\n```"),
+        ("rocking.Block", ""),
+    ]
+
+
+def test_a_page_of_the_reference_has_one_table_for_each_section_and_keeps_the_other_text():
+    before, _, _ = REFERENCE.partition("```{names}")
+    names = "   rocking.System\n   rocking.model.orbit.Mode\n   rocking.plot.save\n   rocking.Block"
+    assert listed(REFERENCE) == f"{before}```{{eval-rst}}\n.. names::\n\n{names}\n```\n\n## After\n"
+    assert listed("# No names\n") == "# No names\n"
