@@ -31,6 +31,7 @@ extensions = [
     "names",
     "report",
     "seen",
+    "stated",
     "thumbnails",
 ]
 exclude_patterns = ["images"]

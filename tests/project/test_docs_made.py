@@ -10,6 +10,7 @@ import pytest
 from docs.extensions.checked import faults
 from docs.extensions.command_options import options
 from docs.extensions.entries import listed, sections_of
+from docs.extensions.stated import unbound
 
 RUN_PAGE = Path(__file__).parents[2] / "docs" / "extensions" / "run_page.py"
 
@@ -64,6 +65,11 @@ def test_sound_pages_have_no_faults(tmp_path):
         ('<img src="none.png">', "a.html points at none.png, which is not there"),
         ('<a href="#none">', "a.html points at #none, and there is no such place on that page"),
         (
+            '<a href="https://doi.org/doi:10.1061/x">',
+            "a.html points at https://doi.org/doi:10.1061/x, which is no address",
+        ),
+        ('<a href="http://example">', "a.html points at http://example, which is no address"),
+        (
             '<script src="https://example.org/x.js"></script>',
             "a.html asks another host for https://example.org/x.js",
         ),
@@ -114,6 +120,22 @@ def test_served_pages_have_their_own_names_folders_and_errors(tmp_path):
     assert second is None
     assert "NameError" in errors
     assert third == [["1\n", []], ["2\n", []]]
+
+
+@pytest.mark.parametrize(
+    ("text", "known", "missing"),
+    [
+        ("It repeats after 2.35 s.", [2.3512], []),
+        ("It repeats after 2.36 s.", [2.3512], ["2.36"]),
+        ("59 % of 2,000 runs", [0.5912, 2000.0], []),
+        ("59 % of 2,000 runs", [0.5812, 2001.0], ["59", "2,000"]),
+        ("in 2 of 12 cycles, see Eq. (15) of Yim & Lin (1991)", [], []),
+        ("intervals of 95 %, of x86-64, 10⁻¹³ and 2 · 10⁵", [], []),
+        ("at 12.5", [125.0], ["12.5"]),
+    ],
+)
+def test_a_number_in_the_text_is_one_of_a_block_rounded(text, known, missing):
+    assert list(unbound(text, known)) == missing
 
 
 def test_an_option_is_described_with_its_default():
