@@ -84,9 +84,17 @@ def new_folder(path):
 
 @cache
 def server():
-    """Start the process that runs the pages; it ends with this one."""
+    """Start the process that runs the pages."""
     command = [sys.executable, Path(__file__).with_name("run_page.py"), "--serve"]
     return subprocess.Popen(command, stdin=PIPE, stdout=PIPE, text=True)
+
+
+def stop(app, failure):
+    """End the process that runs the pages."""
+    if server.cache_info().currsize:
+        with server() as process:
+            process.stdin.close()
+        server.cache_clear()
 
 
 def run(folder, blocks):
@@ -181,6 +189,7 @@ def figures_of(paper):
 
 def setup(app):
     app.add_config_value("notebooks", [], "env")
+    app.connect("build-finished", stop)
     app.add_transform(Executed)
     app.add_directive("script", Script)
     app.add_directive("figures", Figures)

@@ -9,10 +9,13 @@ import pytest
 
 from docs.extensions.checked import faults
 from docs.extensions.command_options import options
+from docs.extensions.drawn import draw, results
 from docs.extensions.entries import listed, sections_of
 from docs.extensions.stated import unbound
 
-RUN_PAGE = Path(__file__).parents[2] / "docs" / "extensions" / "run_page.py"
+ROOT = Path(__file__).parents[2]
+BUILT = ROOT / "build" / "docs"
+RUN_PAGE = ROOT / "docs" / "extensions" / "run_page.py"
 
 
 def run_page(blocks, folder):
@@ -88,6 +91,11 @@ def test_each_fault_is_said(tmp_path, text, fault):
     assert list(faults(tmp_path)) == [fault]
 
 
+@pytest.mark.skipif(not (BUILT / "index.html").exists(), reason="`make docs` has not built the pages")
+def test_the_built_pages_have_no_faults():
+    assert list(faults(BUILT)) == []
+
+
 def test_a_font_of_another_host_is_seen_in_a_style(tmp_path):
     (tmp_path / "a.css").write_text('@font-face { src: url("https://example.org/font.woff2") }')
     assert list(faults(tmp_path)) == ["a.css asks another host for https://example.org/font.woff2"]
@@ -146,6 +154,14 @@ def test_an_option_is_described_with_its_default():
     assert described["--cycles"].signature == "--cycles NUMBER"
     assert next(one for one in options("map") if one.typed == "--period").signature == "--period NUMBER"
     assert options("paper")[0].typed == "FIGURE"
+
+
+def test_the_picture_of_an_example_shows_the_last_result_of_its_calls(tmp_path):
+    assert [type(each).__name__ for each in results("rocking.classify")] == ["Verdict"]
+    assert [type(each).__name__ for each in results("rocking.repeatability")][-1] == "Repeatability"
+    draw("rocking.classify", tmp_path / "verdict.png")
+    draw("rocking.theory.free_quarter_period", tmp_path / "none.png")
+    assert [path.name for path in tmp_path.iterdir()] == ["verdict.png"]
 
 
 REFERENCE = """\
