@@ -1,13 +1,38 @@
-"""The command line, run in this process, or in a separate one that Ctrl-C ends."""
+"""The command line, run in this process, or in a separate one that Ctrl-C ends, and records for it."""
 
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
+import numpy as np
 import pytest
 
+import record_files as write
 from rocking.cli.main import run
+
+WAVE = np.round(0.8 * np.sin(0.15 * np.arange(400)) * np.exp(-np.arange(400) / 150), 3)
+"""Acceleration in units of g, at steps of 0.01 s."""
+RECORDS = {
+    "pulse.csv": "time (s), acceleration (m/s²)\n0, 0\n0.2, 4\n0.4, -5\n0.6, 3\n0.8, 0\n",
+    "push.csv": "time (s), acceleration (m/s²)\n0, 0\n0.5, 12\n1, 0\n",
+    "gentle.csv": "time (s), acceleration (m/s²)\n0, 0\n0.5, 1\n1, 0\n",
+    "bare.txt": "0\n4\n-4\n0\n",
+    "wave.txt": "\n".join(map(str, WAVE)),
+    "set/a.AT2": "\n".join(write.peer(WAVE)),
+    "set/b.AT2": "\n".join(write.peer(-0.5 * WAVE)),
+    "table.csv": "file,scale\nset/a.AT2,0.5\nset/b.AT2,\n",
+}
+
+
+@pytest.fixture
+def records(tmp_path, monkeypatch):
+    """Go to an empty folder, and write records in it."""
+    monkeypatch.chdir(tmp_path)
+    Path("set").mkdir()
+    for name, text in RECORDS.items():
+        Path(name).write_text(text, encoding="utf-8")
 
 
 @pytest.fixture

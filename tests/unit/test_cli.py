@@ -1,22 +1,22 @@
-"""`rocking simulate` and `rocking paper`; the terminal, pipes, memory and Ctrl-C."""
+"""The terminal, pipes, memory and Ctrl-C; `rocking paper`, and the server of `rocking explore`, whose page tests/browser tests."""
 
-import csv
 import errno
-import json
 import logging
 import os
 import re
 import resource
 import signal
+import socket
+import stat
 import subprocess
 import sys
 import time
+from pathlib import Path
+from urllib.parse import urlsplit
 
-import numpy as np
 import pytest
 
-import rocking as rk
-from rocking.cli.main import NO_MEMORY, main, refused
+from rocking.cli.main import NO_MEMORY, main, refused, run
 from rocking.model.text import ordinal
 from rocking.papers.report.claim import Chapter, Finding
 from rocking.papers.report.paper import Paper
@@ -26,199 +26,10 @@ SI = "--height 2 --width 0.5 --acceleration 2.9 --frequency-hz 1.8"
 COMMAND = [sys.executable, "-m", "rocking"]
 
 
-def test_frequency_says_the_same_as_period(rocking):
-    by_period = rocking(f"simulate {NORMALISED} --json --cycles 5")[2]
-    by_frequency = rocking(
-        f"simulate --amplitude 2 --frequency {2 * np.pi} --restitution 0.925 --json --cycles 5"
-    )[2]
-    assert by_period == by_frequency
-
-
-@pytest.mark.parametrize(
-    ("same", "as_acceleration"),
-    [
-        ("--acceleration-g 0.3 --period-s 0.8", 0.3 * 9.80665),
-        ("--displacement 0.05 --frequency-hz 1.25", 0.05 * (2 * np.pi * 1.25) ** 2),
-    ],
-)
-def test_base_motion_may_be_given_in_other_units(rocking, same, as_acceleration):
-    other = json.loads(rocking(f"simulate --height 2 --width 0.5 {same} --cycles 3 --json")[2])
-    line = f"simulate --height 2 --width 0.5 --acceleration {as_acceleration!r} --frequency-hz 1.25 --cycles 3 --json"
-    key = "acceleration_m_per_s2"
-    assert other[key] == pytest.approx(json.loads(rocking(line)[2])[key], rel=1e-14, abs=0)
-    assert other["period_s"] == pytest.approx(0.8, rel=1e-14, abs=0)
-
-
-def test_overturning_is_told_with_its_time(rocking):
-    motion = rk.simulate(rk.System(rk.Harmonic(1.75, period=2.0), 0.95))
-    code, _, out = rocking("simulate --amplitude 1.75 --period 2 --restitution 0.95")
-    assert code == 0
-    assert out.startswith(f"overturned (proved at τ = {motion.overturning.time:.6g}, in the 6th cycle)\n")
-
-
 @pytest.mark.parametrize("number", [*range(1, 25), 101, 111, 112, 113, 122, 1003])
 def test_ordinals_are_those_of_english(number):
     ends = {1: "st", 2: "nd", 3: "rd"} if number // 10 % 10 != 1 else {}
     assert ordinal(number) == f"{number}{ends.get(number % 10, 'th')}"
-
-
-def test_one_cycle_and_the_hits_on_the_braces_are_told_apart_from_the_impacts(rocking):
-    out = rocking("simulate --amplitude 15 --period 2 --restitution 0.925 --brace-angle 1 --cycles 1")[2]
-    motion = rk.simulate(rk.System(rk.Harmonic(15, period=2), 0.925, rk.Braces(1)), cycles=1)
-    text = " ".join(out.split())
-    assert "bounded over 1 cycle (" in text
-    assert "simulated 1 cycle, τ = 2 " in text
-    assert f"impacts {motion.impacts} brace impacts {motion.brace_hits} largest" in text
-
-
-CHATTER = "--amplitude 0 --period 1 --restitution 0.9 --angle 0.5"
-
-
-def counted(rocking, line):
-    return json.loads(rocking(f"simulate {line} --json")[2])
-
-
-@pytest.mark.parametrize("line", [CHATTER, f"{SI} --restitution 0.5"])
-def test_what_is_told_does_not_depend_on_the_files_asked_for(rocking, line):
-    bare = counted(rocking, line)
-    written = counted(rocking, f"{line} --csv a.csv")
-    assert bare == written | {"files": []}
-    assert not bare["impacts_cut_short"]
-
-
-def test_longest_run_that_is_kept_counts_every_impact_and_a_longer_one_says_that_it_does_not(rocking):
-    every = len(rk.simulate(rk.System(rk.Harmonic(0.0, period=1.0), 0.9), rk.State(0.5), cycles=200).events)
-    kept = counted(rocking, f"{CHATTER} --cycles 100000")
-    assert (kept["impacts"] + 1, kept["impacts_cut_short"]) == (every, False)  # and that it comes to rest
-    longer = counted(rocking, f"{CHATTER} --cycles 100001")
-    assert longer["impacts"] < kept["impacts"]
-    assert longer["impacts_cut_short"]
-    assert (
-        "(without the last ones of chattering before rest)"
-        in rocking(f"simulate {CHATTER} --cycles 100001")[2]
-    )
-    assert "chattering" not in rocking(f"simulate {CHATTER}")[2]
-
-
-def test_more_events_than_are_kept_are_counted_and_refused_only_to_a_file(rocking, monkeypatch):
-    monkeypatch.setattr("rocking.motion.march_loop.MAX_RECORDED", 30)
-    code, message, out = rocking(f"simulate {SI} --cycles 50")
-    assert (code, message) == (0, "")
-    assert "warning: sliding and jumping of the block were not checked: too many events to keep" in out
-    assert rocking(f"simulate {SI} --cycles 50 --csv a.csv --plot a.png")[:2] == (
-        2,
-        "too many events for --plot, --csv: reduce --cycles, or omit --plot, --csv",
-    )
-
-
-def test_run_too_long_to_judge_names_the_limit_and_one_that_overturns_early_is_judged(rocking):
-    line = "simulate --height 2 --width 0.5 --frequency-hz 1.2 --cycles 1000000 --acceleration"
-    said = "warning: sliding and jumping of the block were not checked: more than 100,000 cycles"
-    assert said in rocking(f"{line} 0.1")[2]
-    early = rocking(f"{line} 3")[2]
-    assert early == rocking(f"{line} 3".replace("1000000", "200"))[2]
-    assert "assessed up to τ = 15.5003, where overturning is proved\n" in early
-
-
-def test_no_number_is_cut_or_split_however_narrow_the_terminal(rocking, monkeypatch):
-    line = f"simulate {SI} --cycles 50 --brace-angle 0.123456 --brace-restitution 0.654321"
-    monkeypatch.setenv("COLUMNS", "20")
-    told = rocking(line)[2]
-    monkeypatch.setenv("COLUMNS", "1000")
-    assert told == rocking(line)[2]
-    assert "…" not in told
-    assert any(text.startswith("final state ") and text.endswith("°/s") for text in told.splitlines())
-
-
-def test_full_equation_of_motion_is_named_and_its_doubt_is_said(rocking):
-    line = "simulate --pulse one-sine --amplitude 4 --period 2.5 --restitution 0.9 --critical-angle 0.25"
-    first, *rows = rocking(line)[2].splitlines()
-    doubt = "(proved for the computed motion; its rounding errors are not assessed)"
-    assert re.fullmatch(rf"overturned from τ = \S+ {re.escape(doubt)}", first)
-    assert rows[0].split("   ", 1)[0] == "critical angle"
-    assert rows[0].endswith(" θcr = 0.25 rad, full equation of motion")
-    assert any(row.startswith("state when overturning was proved ") for row in rows)
-    assert "equation of motion" not in rocking(f"simulate {SI}")[2]
-
-
-@pytest.mark.parametrize(
-    ("variables", "bold"), [({"TERM": "xterm"}, True), ({"TERM": "dumb"}, False), ({"NO_COLOR": "1"}, False)]
-)
-def test_first_line_is_bold_on_a_terminal_with_colours(rocking, monkeypatch, variables, bold):
-    monkeypatch.delenv("NO_COLOR", raising=False)
-    for name, value in variables.items():
-        monkeypatch.setenv(name, value)
-    monkeypatch.setattr(type(sys.stdout), "isatty", lambda stream: stream is sys.stdout)
-    first = rocking(f"simulate {NORMALISED}")[2].splitlines()[0]
-    assert first.startswith("\x1b[1mbounded") == first.endswith("\x1b[0m") == bold
-
-
-def test_rest_is_told(rocking):
-    assert rocking("simulate --amplitude 0.5 --period 1 --restitution 0.9")[2].startswith("at rest")
-
-
-def test_json_in_si_has_null_where_no_friction_suffices(rocking):
-    # A block that is thrown so fast that the base would have to pull at it.
-    _, _, out = rocking(f"simulate {SI} --velocity 30 --cycles 2 --json")
-    assert json.loads(out, parse_constant=pytest.fail)["validity"]["friction"] is None
-
-
-def test_json_in_si_has_null_where_nothing_is_judged(rocking):
-    line = "simulate --height 2 --width 0.5 --acceleration 0 --period-s 1 --angle 1.2 --json"
-    judged = json.loads(rocking(line)[2])["validity"]
-    assert [judged[name] for name in ("friction", "friction_source", "friction_time", "reaction")] == [
-        None
-    ] * 4
-    assert (judged["until"], judged["overturned"]) == (0.0, True)
-    assert len(judged["warnings"]) == 1
-
-
-def test_csv_holds_the_motion_at_a_hundred_steps_a_cycle(rocking, tmp_path):
-    assert rocking(f"simulate {SI} --cycles 7 --csv motion.csv")[0] == 0
-    with (tmp_path / "motion.csv").open(encoding="utf-8") as file:
-        heading, *rows = csv.reader(file)
-    table = dict(zip(heading, np.array(rows, float).T, strict=True))
-    block = rk.Block(2.0, 0.5)
-    system = block.system(acceleration=2.9, frequency_hz=1.8)
-    motion = rk.simulate(system, cycles=7)
-    times = np.arange(701) * system.forcing.period / 100
-    angle, velocity = motion.at(np.minimum(times, motion.duration))
-    expected = {
-        "time [s]": np.arange(701) / 180,
-        "angle [rad]": angle * np.arctan(0.25),
-        "velocity [rad/s]": velocity * np.arctan(0.25) * block.frequency_parameter,
-        "top_displacement [m]": 2.0 * np.sin(angle * np.arctan(0.25)),
-    }
-    assert list(table) == list(expected)
-    for name, values in expected.items():
-        np.testing.assert_allclose(table[name], values, rtol=1e-12, atol=1e-13)
-
-
-def test_csv_of_a_normalised_system_has_three_columns(rocking, tmp_path, monkeypatch):
-    monkeypatch.setattr("rocking.cli.reports_motion.ROWS_AT_ONCE", 1_000)
-    assert rocking(f"simulate {NORMALISED} --cycles 25 --csv motion.csv")[0] == 0
-    table = np.loadtxt(tmp_path / "motion.csv", delimiter=",", skiprows=1)
-    assert table.shape == (2_501, 3)
-    # The steps stay even where the table goes on in a new batch of rows: 1e-2, but for the rounding of 25.
-    np.testing.assert_allclose(np.diff(table[:, 0]), 0.01, rtol=0, atol=1e-14)
-
-
-def test_netcdf_is_the_dataset_of_the_motion(rocking, tmp_path):
-    import xarray as xr
-
-    assert rocking(f"simulate {NORMALISED} --cycles 7 --netcdf motion.nc")[0] == 0
-    motion = rk.simulate(rk.System(rk.Harmonic(2.0, period=1.0), 0.925), cycles=7)
-    with xr.open_dataset(tmp_path / "motion.nc", engine="h5netcdf") as written:
-        xr.testing.assert_allclose(written.load(), motion.to_xarray(), rtol=1e-15)
-
-
-@pytest.mark.parametrize("suffix", [".gif", ".mp4"])
-def test_suffix_of_a_film_chooses_an_animation(rocking, monkeypatch, suffix):
-    filmed = []
-    monkeypatch.setattr(rk.plot, "animation", lambda *given: filmed.append(given))
-    assert rocking(f"simulate {SI} --cycles 3 --plot a{suffix}")[:2] == (0, "")
-    ((motion, path, block),) = filmed
-    assert (motion.cycles, path.name, block) == (3, f"a{suffix}", rk.Block(2.0, 0.5))
 
 
 def test_report_is_written_to_the_folder_of_its_name(rocking, tmp_path):
@@ -346,11 +157,6 @@ def test_logged_error_is_one_line_with_its_exception_on_a_terminal(monkeypatch, 
     assert capsys.readouterr().err == told * terminal
 
 
-def test_phase_is_told_in_degrees_too_in_which_nobody_should_type_it(rocking):
-    _, _, out = rocking(f"simulate {SI} --phase 90 --cycles 1")
-    assert ["phase", "φ", "=", "90", "5157°"] in [line.split() for line in out.splitlines()]
-
-
 def test_reader_that_leaves_early_is_no_error_message():
     with subprocess.Popen([*COMMAND, "cite"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         process.stdout.close()
@@ -377,3 +183,72 @@ def test_interrupted_run_says_so_and_leaves_no_file(tmp_path):
     out, err = process.communicate()
     assert (process.returncode, out, err) == (130, b"", b"rocking: interrupted\n")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "classify --amplitude 10.103037 --period 1.721328 --restitution 0.8 --max-cycles 1e8",
+        "orbit-diagram --amplitude 7:10:1000 --period 1 --restitution 0.9 --transient 1e6",
+    ],
+)
+def test_interrupted_computation_says_so_and_leaves_no_file(interrupted, tmp_path, line):
+    assert interrupted(f"{line} --plot a.png", 1.5) == (130, b"", b"rocking: interrupted\n")
+    assert not list(tmp_path.iterdir())
+
+
+def test_who_interrupts_a_picture_is_told_that_the_store_is_complete(rocking, monkeypatch, capsys):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("rocking.cli.output.draw", interrupt)
+    line = "map --amplitude 1:2:3 --period 1:2:3 --restitution 0.9 --max-cycles 20 --store map.zarr --plot map.png"
+    monkeypatch.setattr("sys.argv", ["rocking", *line.split()])
+    assert run()[0] == 130
+    told = "rocking: --store 'map.zarr' is complete; repeat the command to write the remaining files\n"
+    assert capsys.readouterr().err == told
+
+
+def test_run_in_a_terminal_shows_a_bar_on_stderr(terminal, monkeypatch):
+    line = "--amplitude 10.4:11.5:12 --period 1.721328 --restitution 0.8 --transient 50 --cycles 4"
+    monkeypatch.setattr("sys.argv", ["rocking", "orbit-diagram", *line.split()])
+    assert run() == (0, "")
+    assert re.fullmatch(r"\[#{20}\] orbit diagram 100 % in 0:00:\d\d", terminal()[-1])
+
+
+def test_port_in_use_is_told_with_the_way_out(rocking):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        code, message, _ = rocking(f"explore --no-browser --port={port}")
+    assert code == 2
+    assert message.startswith(f"cannot listen on --port {port}: ")
+    assert message.endswith("(give another port, or --port 0 for a free one)")
+
+
+def test_control_c_ends_what_is_served_quietly_and_is_no_failure():
+    command = [*COMMAND, "explore", "--port", "0", "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline().startswith("http://localhost:")
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (0, "", "")
+
+
+def test_browser_is_started_without_the_token_in_its_arguments_which_all_users_see(tmp_path):
+    told, browser = tmp_path / "told", tmp_path / "browser"
+    browser.write_text(f'#!/bin/sh\necho "$@" > {told}.partial\nmv {told}.partial {told}\n')
+    browser.chmod(0o700)
+    command = [*COMMAND, "explore", "--port", "0"]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, text=True, env=os.environ | {"BROWSER": f"{browser} %s"}
+    ) as process:
+        link = re.match(r"http://localhost:\d+/\?token=[\w-]{32} ", process.stdout.readline())[0].strip()
+        while not told.exists():
+            time.sleep(0.05)
+        page = Path(urlsplit(told.read_text().strip()).path)
+        assert f'url={link}"' in page.read_text()
+        assert stat.S_IMODE(page.parent.stat().st_mode) == 0o700
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+    assert process.returncode == 0
+    assert not page.parent.exists()

@@ -48,11 +48,7 @@ SOURCE = {command: "push.csv" for command in LINES if {"file", "sources"} & set(
 FILES = {"plot": "a.svg", "animate": "a.gif", "csv": "a1.csv", "netcdf": "a.nc"}
 
 
-@pytest.fixture(autouse=True)
-def push(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("bare.txt").write_text("0\n4\n-4\n0\n")
-    Path("push.csv").write_text("time (s), acceleration (m/s²)\n0, 0\n0.5, 12\n1, 0\n", encoding="utf-8")
+pytestmark = pytest.mark.usefixtures("records")
 
 
 def outputs(command, *names):
@@ -228,14 +224,14 @@ def test_no_record_is_overwritten(rocking, monkeypatch, command):
         else "survey." + {"spectrum": "spectra"}.get(command, command.replace("-", "_"))
     )
     monkeypatch.setattr(f"rocking.{computes}", None)
-    Path("set").mkdir()
-    Path("push.csv").replace("set/a.csv")
-    Path("table.csv").write_text("file,scale\nset/a.csv,0.5\n")
-    for source in ("set/a.csv",) if command == "record" else ("set/a.csv", "set", "table.csv"):
+    Path("sub").mkdir()
+    Path("push.csv").replace("sub/a.csv")
+    Path("table.csv").write_text("file,scale\nsub/a.csv,0.5\n")
+    for source in ("sub/a.csv",) if command == "record" else ("sub/a.csv", "sub", "table.csv"):
         what = "the record" if command == "record" else "a record"
-        told = f"--csv must not overwrite {what}; got 'set/a.csv'"
+        told = f"--csv must not overwrite {what}; got 'sub/a.csv'"
         line = LINES[command].replace("push.csv", source)
-        assert rocking(f"{command} {line} --csv set/a.csv") == (2, told, "")
+        assert rocking(f"{command} {line} --csv sub/a.csv") == (2, told, "")
 
 
 N = "--period 1 --restitution 0.9"
@@ -337,6 +333,13 @@ REFUSED = {
         f"{MAP} --study nowhere.toml": "--study must name a TOML file; got 'nowhere.toml': No such file or directory",
         f"{SI} --displacement 0.1 --frequency-hz 1:2:9": "--displacement with an axis of the frequency varies amplitude and frequency: "
         "use --acceleration instead",
+        f"{MAP} --store a.zarr --curves melnikow --plot a.png": "--curves must be one of 'symmetry-breaking-1', ",
+        f"{MAP} --store a.zarr --symbols 12 --plot a.png": "--symbols must be one of 'kinds', '10', '11', '13b'; got '12'",
+        f"{MAP} --store a.zarr --curves melnikov": "--curves needs a plot: give --plot FILE as well",
+        f"{MAP} --store a.zarr --symbols 11 --tiles map": "--symbols needs a plot: give --plot FILE as well",
+        f"{MAP} --store a.zarr --curves melnikov --plot a.png --brace-angle 0.3": "--curves must lie over a map of a block without "
+        "braces; got 'brace_angle = 0.3'",
+        f"{MAP} --store a.zarr --curves melnikov --plot a.png --period 1 --angle=-1:1": "--curves must lie over ",
     },
     "basins": {
         f"--amplitude 2 {N} --samples 10 --angle 1": "--angle must be an axis, START:STOP:COUNT with … got '1' (example: 1:3:60)",
@@ -469,6 +472,12 @@ def test_what_is_invalid_is_refused_in_one_line_and_leaves_no_file(rocking, comm
     assert message.startswith(start)
     assert message.endswith(end)
     assert set(Path().iterdir()) == before
+
+
+def test_number_of_cycles_is_checked_before_orbits_are_followed(rocking, monkeypatch):
+    monkeypatch.setattr(sys.modules["rocking.orbits.frequency_response"], "continue_orbit", pytest.fail)
+    line = "frequency-response --amplitude 2 --period 0.5:2.5:9 --restitution 0.925 --max-cycles 0"
+    assert rocking(line)[1].startswith("--max-cycles must be a whole number in [1, ")
 
 
 TEXTS = [
