@@ -14,6 +14,7 @@ import xarray as xr
 import record_files as write
 import rocking as rk
 from rocking.cli.reports_motion import margin_text, record_outcome, undecided
+from rocking.cli.reports_records import few_records
 from rocking.model.quantity import IN_SI
 from rocking.records.read import FILE as EXAMPLE_FILE
 
@@ -230,6 +231,11 @@ def test_drift_is_a_warning_with_the_baseline_as_remedy(rocking):
         found = [each for each in found if drift in each]
         assert [each.startswith(f"push.csv: {drift}") for each in found] == [True] * len(ends)
         assert [each.partition(": use a corrected record, ")[2] for each in found] == ends
+
+
+def test_fewer_than_ten_records_are_warned_of():
+    assert list(few_records(10)) == []
+    assert list(few_records(9)) == ["9 records can hardly say how much records differ: use 10 or more"]
 
 
 def test_file_named_like_an_option_keeps_its_name(rocking):

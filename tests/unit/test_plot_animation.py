@@ -238,37 +238,6 @@ def test_interrupted_film_leaves_what_was_there(tmp_path, monkeypatch, suffix):
     assert path.read_bytes() == b"old"
 
 
-@pytest.mark.parametrize(
-    ("name", "how", "message"),
-    [
-        ("a.avi", {}, r"^path must end in \.gif, \.mp4; got '.*a\.avi'$"),
-        ("a.gif", {"seconds": 0}, r"^seconds must lie in \[0\.1, 600\]; got 0$"),
-        ("a.gif", {"fps": 1000}, r"^fps must lie in \[1, 100\]; got 1000$"),
-        ("a.gif", {"cycles": (3, 9)}, r"^cycles must lie in \[0, 5\]; got 9$"),
-    ],
-)
-def test_wrong_wishes_are_refused_in_one_line(tmp_path, name, how, message):
-    with pytest.raises(ValueError, match=message):
-        rk.plot.animation(rk.simulate(SYSTEM, cycles=5), tmp_path / name, **how)
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize(
-    ("motion", "name", "block", "message"),
-    [
-        (3, "a.gif", None, "^result must be a Motion; got 3$"),
-        (None, 3, None, r"^path must be the name of a file that ends in \.gif, \.mp4; got 3$"),
-        (None, "a.gif", 3, "^block must be a Block; got 3 "),
-        (None, "a.gif", 0, "^block must be a Block; got 0 "),
-    ],
-)
-def test_argument_of_another_kind_is_refused_in_one_line(tmp_path, monkeypatch, motion, name, block, message):
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(TypeError, match=message):
-        rk.plot.animation(motion or rk.simulate(SYSTEM, cycles=5), name, block)
-    assert not list(tmp_path.iterdir())
-
-
 def film_of(motion, block, count=200):
     from rocking.plot.film import NOMINAL, _Film, _window
 

@@ -1,7 +1,5 @@
 """Figures of branches, of curves of special points and of frequency responses."""
 
-import math
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -10,8 +8,6 @@ import rocking as rk
 from rocking.plot.curves import LOOKS as CURVES
 from rocking.plot.palette import LOOKS
 from surveyed import system_with
-
-BLOCK = rk.Block(2.0, 0.5)
 
 
 def drawn(ax, gid):
@@ -79,17 +75,6 @@ def test_a_fold_is_where_its_line_turns():
         assert line[np.isfinite(line[:, 1]), 0].min() == fold < branch.points["parameter"].min()
 
 
-def test_blocks_give_si_axes(family, response):
-    ax = rk.plot.branch(family[0], block=BLOCK)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == (r"amplitude $a_x$ (m/s²)", r"largest $|\theta|$ (°)")
-    most = np.nanmax(drawn(ax, "symmetric, unstable")[0], axis=0)
-    assert most[0] == pytest.approx(BLOCK.acceleration(11.5))
-    assert most[1] == pytest.approx(BLOCK.degrees(family[0].points["peak"].max()))
-    ax = rk.plot.frequency_response(response, block=BLOCK)
-    assert ax.get_xlabel() == "period (s)"
-    assert np.nanmax(drawn(ax, "(1, 1), unstable")[0][:, 0]) == pytest.approx(BLOCK.seconds(3.0))
-
-
 def test_curves_have_a_look_a_kind():
     system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
     branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (0.01, 30.0))
@@ -100,9 +85,6 @@ def test_curves_have_a_look_a_kind():
     assert len({(line.get_color(), line.get_linestyle()) for line in ax.lines}) == len(curves) == 3
     for curve, line in zip(curves, ax.lines, strict=True):
         np.testing.assert_array_equal(line.get_xydata(), curve.points)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("period $T$", "amplitude $A$")
-    across = rk.plot.bifurcation_curve(curves[0], block=BLOCK)
-    np.testing.assert_allclose(across.lines[0].get_ydata(), BLOCK.acceleration(curves[0].points[:, 1]))
 
 
 def test_legend_of_two_types_of_curves_lies_within_the_figure():
@@ -177,26 +159,3 @@ def test_where_there_is_nothing_to_follow_it_shows_what_a_start_from_rest_does()
         rk.frequency_response(system_with(amplitude=0.05, restitution=0.5), period=[0.5, 1.0])
     )
     assert legend(ax) == ["from rest: rest"]
-
-
-def test_refusals_are_one_line(family):
-    other = rk.continue_orbit(family[0].orbit(200), "period", (1.7, 1.8))
-    for call, error, message in (
-        (lambda: rk.plot.branch(3), TypeError, "result must be a Branch or a sequence of them; got 3"),
-        (lambda: rk.plot.branch([]), TypeError, r"result must be a Branch or a sequence of them; got \[\]"),
-        (
-            lambda: rk.plot.branch([family[0], other]),
-            ValueError,
-            "result must hold branches over one parameter, amplitude; got 'period'",
-        ),
-        (lambda: rk.plot.branch(family, quantity="speed"), ValueError, "quantity must be one of 'angle', "),
-        (lambda: rk.plot.branch(family, phase=math.nan), ValueError, "phase must lie in"),
-        (
-            lambda: rk.plot.bifurcation_curve(family),
-            TypeError,
-            "result must be a BifurcationCurve or a sequence",
-        ),
-        (lambda: rk.plot.frequency_response(3), TypeError, "result must be a FrequencyResponse; got 3"),
-    ):
-        with pytest.raises(error, match=f"^{message}"):
-            call()

@@ -1,7 +1,5 @@
 """Convergence figure of an exponent: running estimates, their errors and the final value."""
 
-import math
-
 import numpy as np
 import pytest
 from attrs import evolve
@@ -55,16 +53,12 @@ def test_title_has_the_minus_sign_of_the_axis():
     assert "-" not in title
 
 
-def test_block_gives_exponents_per_second(spectrum):
+def test_band_and_title_of_a_block_are_per_second(spectrum):
     block = rk.Block(2.0, 0.5)
     normal, physical = (rk.plot.convergence(spectrum, block=each) for each in (None, block))
     rate = block.frequency_parameter
-    for gid in ("running", "final"):
-        expected = rate * np.array(artist(normal, gid).get_ydata())
-        np.testing.assert_allclose(artist(physical, gid).get_ydata(), expected, rtol=1e-14)
     (path,), (scaled,) = (artist(ax, "error").get_paths() for ax in (normal, physical))
     np.testing.assert_allclose(scaled.vertices[:, 1], rate * path.vertices[:, 1], rtol=1e-14)
-    assert physical.get_ylabel() == r"exponent $\lambda_1$ (1/s)"
     value, error = rate * spectrum.values[0], rate * spectrum.errors[0]
     assert physical.get_title(loc="right") == rf"$\lambda_1$ = {value:.3f} ± {error:.3f}"
 
@@ -82,11 +76,6 @@ def test_estimate_without_an_error_is_drawn_and_says_so():
     ax.figure.canvas.draw()
 
 
-def test_axes_given_is_drawn_into(spectrum):
-    _, (_, right) = rk.plot.panels(columns=2)
-    assert rk.plot.convergence(spectrum, right) is right
-
-
 @pytest.mark.parametrize("exponent", [1, 2])
 def test_exponent_of_minus_infinity_has_its_value_and_its_cause_but_no_line(exponent):
     resting = rk.lyapunov(rk.System(rk.Harmonic(1.05, period=3.0), 0.5), cycles=100)
@@ -96,11 +85,3 @@ def test_exponent_of_minus_infinity_has_its_value_and_its_cause_but_no_line(expo
     assert "perturbations vanish" in artist(ax, "cause").get_text()
     assert (ax.get_xlim(), ax.get_xscale()) == ((1.0, 100.0), "log")
     ax.figure.canvas.draw()
-
-
-def test_what_cannot_be_drawn_is_refused_in_one_line(spectrum):
-    with pytest.raises(TypeError, match="^result must be a LyapunovSpectrum; got 3$"):
-        rk.plot.convergence(3)
-    for bad in (0, 3, math.nan):
-        with pytest.raises(ValueError, match=r"^exponent must be a whole number in \[1, 2\]; got .*$"):
-            rk.plot.convergence(spectrum, exponent=bad)

@@ -58,12 +58,3 @@ def test_radii_have_ticks_that_can_be_read(square):
 def test_axes_given_is_drawn_into(square):
     _, (left, _) = rk.plot.panels(columns=2)
     assert rk.plot.correlation_dimension(square, left) is left
-
-
-def test_what_cannot_be_drawn_is_refused_in_one_line():
-    with pytest.raises(ValueError, match="^result must hold pairs that scale; got '2 isolated points'$"):
-        rk.plot.correlation_dimension(
-            rk.correlation_dimension(np.resize([[0.0, 1.0], [1.0, 0.0]], (1_000, 2)))
-        )
-    with pytest.raises(TypeError, match="^result must be a CorrelationDimension; got 3$"):
-        rk.plot.correlation_dimension(3)

@@ -106,15 +106,3 @@ def test_a_fragility_without_a_fit_is_drawn_without_a_curve(records):
     texts = [text.get_text() for text in ax.get_legend().get_texts()]
     assert texts == ["overturning", "95 % interval", "0 or 100 % of the runs"]
     assert np.concatenate([line.get_ydata() for line in drawn(ax, "fraction")]).tolist() == [0.0, 0.0]
-
-
-def test_bad_input_is_refused(records, analysis, fragility):
-    with pytest.raises(TypeError, match="result must be a Fragility"):
-        rk.plot.fragility(analysis)
-    with pytest.raises(TypeError, match="result must be an IncrementalDynamicAnalysis"):
-        rk.plot.incremental_dynamic_analysis(fragility)
-    with pytest.raises(ValueError, match="fractiles must hold 1 to 3 fractions"):
-        rk.plot.incremental_dynamic_analysis(analysis, fractiles=[0.1, 0.2, 0.3, 0.4])
-    many = rk.fragility(records, BLOCK, [1.0, 5.0], limits=[0.1, 0.2, 0.3, 0.4])
-    with pytest.raises(ValueError, match="result must have at most 3 limits to be drawn; got 4"):
-        rk.plot.fragility(many)

@@ -1,7 +1,6 @@
 """Figure of manifolds: two colours, all curves as computed, and markers at the saddles."""
 
 import numpy as np
-import pytest
 
 import rocking as rk
 
@@ -42,19 +41,6 @@ def test_frame_holds_the_saddles_and_what_lies_between():
     assert ax.get_ylim()[1] > 0.9
 
 
-def test_a_block_gives_degrees():
-    block = rk.Block(2.0, 0.5)
-    ax = rk.plot.manifolds(GROWN, block=block)
-    saddles = lines(ax)["saddles"]
-    np.testing.assert_allclose(saddles.get_xdata(), block.degrees(GROWN.saddles[:, 0]))
-    assert ax.get_xlabel() == r"angle $\theta$ (°)"
-
-
 def test_legend_names_each_curve():
     texts = [text.get_text() for text in rk.plot.manifolds(GROWN).get_legend().get_texts()]
     assert texts == ["stable, Θ ≈ +1", "stable, Θ ≈ −1", "unstable, Θ ≈ +1", "unstable, Θ ≈ −1", "saddles"]
-
-
-def test_other_results_are_refused():
-    with pytest.raises(TypeError, match="^result must be a SaddleManifolds; got 3"):
-        rk.plot.manifolds(3)

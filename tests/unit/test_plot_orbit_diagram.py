@@ -1,7 +1,6 @@
 """Figure of an orbit diagram: all points, few or many, the given branches, and overturning."""
 
 import io
-import math
 
 import numpy as np
 import pytest
@@ -143,23 +142,6 @@ def test_legend_names_each_once_and_in_order(branch, twice):
     ]
 
 
-def test_a_block_gives_si_axes():
-    block = rk.Block(2.0, 0.5)
-    system = block.system(acceleration=3.0, frequency_hz=1.2)
-    for name, label, factor in (
-        ("amplitude", r"amplitude $a_x$ (m/s²)", block.acceleration(1.0)),
-        ("period", "period (s)", block.seconds(1.0)),
-        ("frequency", "frequency (Hz)", 1 / (2 * math.pi * block.seconds(1.0))),
-    ):
-        diagram = rk.orbit_diagram(system, **{name: [1.1, 1.2]}, sweep="rest", transient=0, cycles=1)
-        ax = rk.plot.orbit_diagram(diagram, block=block, quantity="peak")
-        assert ax.get_xlabel() == label
-        shown = drawn(ax, "rest")
-        kept = ~diagram.overturned[0]
-        np.testing.assert_allclose(shown[:, 0], diagram.values[kept] * factor)
-        np.testing.assert_allclose(shown[:, 1], block.degrees(diagram.peak[0, kept]))
-
-
 def test_ten_points_are_seen_and_a_million_stay_small_in_a_vector_file():
     few = rk.orbit_diagram(SYSTEM, amplitude=np.linspace(9, 10, 10), sweep="up", cycles=1)
     assert rk.plot.orbit_diagram(few).lines[0].get_markersize() == pytest.approx(3.0)
@@ -172,26 +154,3 @@ def test_ten_points_are_seen_and_a_million_stay_small_in_a_vector_file():
     ax.figure.savefig(stream, dpi=150)
     red, _, blue = np.asarray(Image.open(stream).convert("RGB"), dtype=int).transpose(2, 0, 1)
     assert 0.02 < (blue - red > 60).mean() < 0.7
-
-
-@pytest.mark.parametrize(
-    "change, error, message",
-    [
-        (dict(result=3), TypeError, "result must be an OrbitDiagram; got 3"),
-        (dict(quantity="speed"), ValueError, "quantity must be one of 'angle', 'velocity', 'peak'"),
-        (dict(branches=[3]), TypeError, "branches must be a sequence of branches from continue_orbit; got 3"),
-        (dict(block=2.0), TypeError, "block must be a Block; got 2.0"),
-    ],
-)
-def test_refusals_are_one_line(change, error, message):
-    with pytest.raises(error, match=f"^{message}"):
-        rk.plot.orbit_diagram(**({"result": UP} | change))
-
-
-def test_a_branch_over_another_parameter_is_refused():
-    orbit = rk.classify(rk.System(rk.Harmonic(2.0, period=1.0), restitution=0.9)).orbit
-    other = rk.continue_orbit(orbit, "period", (0.9, 1.1))
-    with pytest.raises(
-        ValueError, match="^branches must run over amplitude, as the diagram does; got 'period'$"
-    ):
-        rk.plot.orbit_diagram(UP, branches=[other])

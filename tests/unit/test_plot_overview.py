@@ -63,11 +63,6 @@ def test_block_that_never_rocks_is_shown_whole():
     assert portrait.lines
 
 
-def test_other_than_a_motion_is_refused_in_one_line():
-    with pytest.raises(TypeError, match="^result must be a Motion; got 3$"):
-        rk.plot.overview(3)
-
-
 RECORD = rk.System(rk.PiecewiseLinear([0.0, 1.5, -1.5, 0.0], step=0.4), restitution=0.9)
 
 

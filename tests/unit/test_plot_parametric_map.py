@@ -171,16 +171,6 @@ def test_store_that_was_stopped_is_drawn_as_far_as_it_is(tmp_path):
     assert ((drawn == fallen) == (kinds[nearest] == NUMBERS["overturned"])).all()
 
 
-def test_axes_in_si_are_the_blocks():
-    block = rk.Block(2.0, 0.5)
-    ax = rk.plot.parametric_map(a_map([("rest", 0, 2), ("chaotic", 0, 2)]), block=block)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("period (s)", "amplitude $a_x$ (m/s²)")
-    assert ax.get_title(loc="left") == "block 2 m × 0.5 m"
-    assert ax.get_ylim() == pytest.approx(block.acceleration(np.array([0.5, 2.5])))
-    step = 1 / (COUNT - 1)
-    assert ax.get_xlim() == pytest.approx(block.seconds(np.array([1 - step / 2, 2 + step / 2])))
-
-
 CURVES = {
     "symmetry-breaking-1": lambda T, e: rk.theory.symmetry_breaking_amplitude(T, e, 1),
     "symmetry-breaking-3": lambda T, e: rk.theory.symmetry_breaking_amplitude(T, e, 3),
@@ -278,30 +268,6 @@ def test_marks_of_the_kinds_are_all_different_and_every_point_has_one():
     marks = {(line.get_marker(), line.get_markerfacecolor() == "white") for line in ax.lines}
     assert len(set(looks)) == len(marks) == len(LOOKS)
     assert sum(len(line.get_xdata()) for line in ax.lines) == COUNT * len(SEEN)
-
-
-@pytest.mark.parametrize("found", [3, xr.Dataset(), a_map([("rest", 0, 2)] * 2).isel(period=0), []])
-def test_what_is_no_map_is_refused(found):
-    with pytest.raises(
-        (TypeError, ValueError), match="result must be a map over two axes, as parametric_map gives it"
-    ):
-        rk.plot.parametric_map(found)
-
-
-def test_what_cannot_be_drawn_is_refused_in_one_line(tmp_path):
-    found = a_map([("rest", 0, 2)] * 2)
-    with pytest.raises(
-        ValueError, match="curves must be one of .*'melnikov'.*; got 'A_M'|curves must be .*got 'A_M'"
-    ):
-        rk.plot.parametric_map(found, curves=["A_M"])
-    with pytest.raises(ValueError, match="symbols must be .*got '12'"):
-        rk.plot.parametric_map(found, symbols="12")
-    with pytest.raises(
-        ValueError, match="curves must lie over a map of the amplitude and .*; got 'amplitude and phase'"
-    ):
-        rk.plot.parametric_map(found.rename(period="phase"), curves=["melnikov"])
-    with pytest.raises(ValueError, match="result must be the folder of a map's store"):
-        rk.plot.parametric_map(tmp_path)
 
 
 def test_the_longest_name_fits_the_vertical_axis():

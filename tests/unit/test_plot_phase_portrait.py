@@ -1,7 +1,5 @@
 """The phase portrait shows jumps as vertical lines, arcs as curves, and nothing else."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -80,18 +78,6 @@ def test_window_leaves_out_the_impacts_outside_it():
     inside = (motion.events["time"] >= 30) & (motion.events["time"] <= 40)
     drawn = strokes(rk.plot.phase_portrait(motion, cycles=(30, 40)), "impact")
     np.testing.assert_array_equal(drawn[:, 0, 1], motion.events["before"][inside])
-
-
-def test_block_gives_degrees_and_degrees_per_second():
-    block = rk.Block(height=2.0, width=0.5)
-    ax = rk.plot.phase_portrait(rk.simulate(SYSTEM, cycles=20), block=block)
-    normalised = rk.plot.phase_portrait(rk.simulate(SYSTEM, cycles=20))
-    degrees = math.degrees(math.atan(0.25))
-    frequency_parameter = math.sqrt(3 * 9.80665 / (4 * math.hypot(1.0, 0.25)))
-    expected = named(normalised, "motion") * (degrees, degrees * frequency_parameter)
-    np.testing.assert_allclose(named(ax, "motion"), expected, rtol=1e-13)
-    assert ax.get_xlabel().endswith("(°)")
-    assert ax.get_ylabel().endswith("(°/s)")
 
 
 def test_key_names_the_kinds_of_impact_that_occur():

@@ -1,7 +1,5 @@
 """Figure of a response diagram: bands of the types, marks with their errors, SI axes."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -89,40 +87,3 @@ def test_a_diagram_of_overturned_or_single_responses_has_a_picture():
         figure = rk.plot.response_diagram(rk.response_diagram(CASCADE, amplitude=values))
         figure.canvas.draw()
         assert len(bands(figure)) == 1
-
-
-def test_a_block_gives_si_axes():
-    block = rk.Block(2.0, 0.5)
-    for name, values, label, factor in (
-        ("amplitude", [1.5, 2.0], r"amplitude $a_x$ (m/s²)", block.acceleration(1.0)),
-        ("period", [1.0, 1.1], "period (s)", block.seconds(1.0)),
-        ("frequency", [5.0, 6.0], "frequency (Hz)", 1 / (2 * math.pi * block.seconds(1.0))),
-    ):
-        system = rk.System(rk.Harmonic(2.0, period=1.0), 0.9)
-        found = rk.response_diagram(system, **{name: values})
-        _, exponents, rotation = rk.plot.response_diagram(found, block).axes
-        assert (rotation.get_xlabel(), exponents.get_ylabel()) == (label, r"exponent $\lambda_1$ (1/s)")
-        points = np.concatenate(list(marks(exponents).values()))
-        np.testing.assert_allclose(points[:, 0], np.array(values) * factor)
-        np.testing.assert_allclose(points[:, 1], found.exponent / block.seconds(1.0))
-
-
-def test_critical_angle_has_a_label_in_both_diagrams():
-    system = rk.System(rk.Harmonic(2.0, period=1.0), restitution=0.9)
-    responses = rk.response_diagram(system, critical_angle=[0.1, 0.2])
-    points = rk.orbit_diagram(system, critical_angle=[0.1, 0.2], transient=5, cycles=2)
-    label = r"critical angle $\theta_\mathrm{cr}$ (rad)"
-    assert rk.plot.response_diagram(responses).axes[2].get_xlabel() == label
-    assert rk.plot.orbit_diagram(points).get_xlabel() == label
-
-
-@pytest.mark.parametrize(
-    "change, message",
-    [
-        (dict(result=3), "result must be a ResponseDiagram; got 3"),
-        (dict(block=2.0), r"block must be a Block; got 2.0 \(make one: .*\)"),
-    ],
-)
-def test_refusals_are_one_line(change, message):
-    with pytest.raises(TypeError, match=f"^{message}$"):
-        rk.plot.response_diagram(**({"result": FOUND} | change))

@@ -58,16 +58,3 @@ def test_every_symbol_of_figure_1_is_there_and_none_covers_another(block):
         for (a, one), (b, other) in itertools.combinations(zip(texts, boxes, strict=True), 2)
         if one.overlaps(other)
     ]
-
-
-@pytest.mark.parametrize(
-    ("how", "message"),
-    [
-        ({"block": 3}, "^block must be a Block; got 3 "),
-        ({"ax": 3}, "^ax must be an? Axes; got 3$"),
-        ({"lean": "x"}, r"^lean must be a real number in \[-1, 1\]; got 'x'$"),
-    ],
-)
-def test_argument_of_another_kind_is_refused_in_one_line(how, message):
-    with pytest.raises(TypeError, match=message):
-        rk.plot.schematic(**how)

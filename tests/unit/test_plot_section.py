@@ -1,7 +1,6 @@
 """The section shows every point, few or many."""
 
 import io
-import math
 
 import numpy as np
 import pytest
@@ -82,43 +81,8 @@ def test_many_points_are_an_image_inside_a_vector_file(tmp_path):
     assert "<image" not in sparse.read_text()
 
 
-def test_block_gives_degrees():
-    block = rk.Block(height=2.0, width=0.5)
-    motion = rk.simulate(THIRD, cycles=20)
-    np.testing.assert_allclose(
-        points(rk.plot.section(motion, block=block))[:, 0], block.degrees(motion.section()[:, 0]), rtol=1e-15
-    )
-
-
 def test_plain_lists_are_points():
     np.testing.assert_array_equal(points(rk.plot.section([[0, 1], [2, 3]], transient=1)), [[2, 3]])
-
-
-@pytest.mark.parametrize("transient", [51, -1, 1.5, math.nan])
-def test_transient_that_leaves_no_point_or_is_none_is_refused_in_one_line(transient):
-    allowed = rf"a whole number in \[0, 50\]; got {transient}"
-    with pytest.raises(ValueError, match=f"^transient must be {allowed}$"):
-        rk.plot.section(rk.simulate(THIRD, cycles=50), transient=transient)
-
-
-@pytest.mark.parametrize("given", [[], [1, 2], None, "abc", 3, [[1, 2, 3]], [[1, 2], [3]], np.empty((0, 2))])
-def test_what_holds_no_points_is_refused_in_one_line(given):
-    message = r"^result must be a Motion or points of shape \(n, 2\), one at least; got .+$"
-    with pytest.raises((TypeError, ValueError), match=message):
-        rk.plot.section(given)
-
-
-@pytest.mark.parametrize(
-    ("how", "message"),
-    [
-        ({"phase": "a"}, r"^phase must be a real number in \[-1000, 1000\]; got 'a'$"),
-        ({"block": 3}, "^block must be a Block; got 3 "),
-        ({"ax": 3}, "^ax must be an? Axes; got 3$"),
-    ],
-)
-def test_argument_of_another_kind_is_refused_in_one_line(how, message):
-    with pytest.raises(TypeError, match=message):
-        rk.plot.section([[1, 2]], **how)
 
 
 @pytest.mark.parametrize("drawn", [rk.plot.section, rk.plot.impact_section])

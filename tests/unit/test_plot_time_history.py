@@ -1,7 +1,5 @@
 """The time history passes where the motion passes, corners and extremes included."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -86,30 +84,6 @@ def test_window_is_counted_in_forcing_cycles():
     assert (time[0], time[-1]) == (20.0, 25.0) == tuple(ax.get_xlim())
 
 
-def test_block_gives_seconds_and_degrees():
-    block = rk.Block(height=2.0, width=0.5)
-    motion = rk.simulate(SYSTEM, cycles=20)
-    ax = rk.plot.time_history(motion, block=block)
-    time, angle = curve(ax)
-    frequency_parameter = math.sqrt(3 * 9.80665 / (4 * math.hypot(1.0, 0.25)))
-    assert time[-1] == pytest.approx(motion.duration / frequency_parameter, rel=1e-14, abs=0)
-    assert np.abs(angle).max() == pytest.approx(math.degrees(math.atan(0.25)) * motion.peak, rel=1e-13, abs=0)
-    assert ax.get_xlabel().endswith("(s)")
-    assert ax.get_ylabel().endswith("(°)")
-
-
-def test_axes_are_labelled_with_symbols_and_units():
-    ax = rk.plot.time_history(rk.simulate(SYSTEM, cycles=5))
-    assert ax.get_xlabel() == r"time $\tau = \alpha t$"
-    assert ax.get_ylabel() == r"angle $\Theta = \theta/\theta_\mathrm{cr}$"
-
-
-def test_axes_given_are_drawn_into_and_returned():
-    _, (left, right) = rk.plot.panels(columns=2)
-    assert rk.plot.time_history(rk.simulate(SYSTEM, cycles=5), ax=right) is right
-    assert not left.lines
-
-
 def test_overturning_is_followed_to_three_critical_angles():
     motion = rk.simulate(FALLING, cycles=50)
     time, angle = curve(rk.plot.time_history(motion))
@@ -154,42 +128,6 @@ def test_critical_angle_and_braces_are_drawn_where_the_motion_comes_near(system,
     assert {guide for guide in guides if guide[0] in ("critical angle", "braces")} == drawn
 
 
-@pytest.mark.parametrize(
-    ("cycles", "error", "message"),
-    [
-        ((5, 31), ValueError, r"^cycles must lie in \[0, 30\]; got 31$"),
-        ((-1, 3), ValueError, r"^cycles must lie in \[0, 30\]; got -1$"),
-        ((5, 5), ValueError, r"^cycles must be a pair \(first, last\) with first < last; got \(5, 5\)$"),
-        ((math.nan, 5), ValueError, r"^cycles must lie in \[0, 30\]; got nan$"),
-        (10, TypeError, r"^cycles must be a pair \(first, last\); got 10$"),
-        (("a", 2), TypeError, "^cycles must be a real number"),
-    ],
-)
-def test_window_outside_the_motion_is_refused_in_one_line(cycles, error, message):
-    motion = rk.simulate(SYSTEM, cycles=30)
-    with pytest.raises(error, match=message):
-        rk.plot.time_history(motion, cycles=cycles)
-
-
-def test_motion_without_events_is_refused_with_the_way_out():
-    with pytest.raises(ValueError, match="record must be 'all'"):
-        rk.plot.time_history(rk.simulate(SYSTEM, cycles=5, record="section"))
-
-
-@pytest.mark.parametrize(
-    ("how", "message"),
-    [
-        ({"result": 3}, "^result must be a Motion; got 3$"),
-        ({"block": 3}, "^block must be a Block; got 3 "),
-        ({"ax": 3}, "^ax must be an? Axes; got 3$"),
-    ],
-)
-@pytest.mark.parametrize("draw", [rk.plot.time_history, rk.plot.phase_portrait])
-def test_argument_of_another_kind_is_refused_in_one_line(draw, how, message):
-    with pytest.raises(TypeError, match=message):
-        draw(**({"result": rk.simulate(SYSTEM, cycles=5)} | how))
-
-
 def panel(ax):
     """The curve of the base acceleration, and its axes below those of the angle."""
     above, below = ax.figure.axes
@@ -224,6 +162,12 @@ def test_block_gives_the_base_in_metres_per_square_second():
     assert levels == {block.acceleration(1.0), -block.acceleration(1.0)}
 
 
+def test_pulse_stands_below_the_angle():
+    pulse = rk.Pulse("half-sine", amplitude=3.0, duration=2.0)
+    _, when, base = panel(rk.plot.time_history(rk.simulate(rk.System(pulse, restitution=0.9))))
+    np.testing.assert_allclose(base, pulse.acceleration(when), rtol=0, atol=1e-15)
+
+
 def test_jump_at_the_end_of_a_record_is_drawn_as_a_jump():
     motion = rk.simulate(rk.System(rk.PiecewiseLinear([1.2, 1.2], step=0.5), restitution=0.9))
     _, when, base = panel(rk.plot.time_history(motion))
@@ -245,16 +189,3 @@ def test_axes_given_show_the_angle_alone():
     assert rk.plot.time_history(rk.simulate(SHAKEN), ax=right) is right
     assert len(right.figure.axes) == 2
     assert right.get_xlabel() == r"time $\tau = \alpha t$"
-
-
-@pytest.mark.parametrize("draw", [rk.plot.time_history, rk.plot.phase_portrait])
-def test_cycles_of_a_record_are_refused_in_one_line(draw):
-    with pytest.raises(ValueError, match="^cycles must be omitted for a base motion of finite length"):
-        draw(rk.simulate(SHAKEN), cycles=(0, 1))
-
-
-def test_pictures_that_need_a_period_refuse_a_record_in_one_line():
-    motion = rk.simulate(SHAKEN)
-    for draw in (rk.plot.section, rk.spectral_density):
-        with pytest.raises(TypeError, match=r"^system must have a periodic base motion, rk\.Harmonic"):
-            draw(motion)

@@ -125,8 +125,3 @@ def test_band_has_the_colour_of_the_kind():
         verdict = verdict_of(name)
         (band,) = (artist for artist in rk.plot.verdict(verdict).get_children() if artist.get_gid() == "kind")
         assert band.get_facecolor()[:3] == to_rgb(COLOURS[verdict.kind])
-
-
-def test_other_than_a_verdict_is_refused_in_one_line():
-    with pytest.raises(TypeError, match="^result must be a Verdict; got 3$"):
-        rk.plot.verdict(3)
