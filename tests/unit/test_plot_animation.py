@@ -11,8 +11,9 @@ import pytest
 from PIL import Image, ImageSequence
 
 import rocking as rk
+from drawn import points
 from rocking.plot import palette
-from rocking.plot.film import Scene, corners
+from rocking.plot.film import NOMINAL, Scene, _Film, _window, corners
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 BRACED = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0))
@@ -30,20 +31,21 @@ def gif_frames(path):
 
 
 def mp4_frames(path):
-    decode = [
-        imageio_ffmpeg.get_ffmpeg_exe(),
-        "-v",
-        "error",
-        "-i",
-        path,
-        "-f",
-        "rawvideo",
-        "-pix_fmt",
-        "rgb24",
-        "-",
-    ]
+    how = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    decode = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "error", "-i", path, *how]
     raw = subprocess.run(decode, check=True, capture_output=True).stdout
     return list(np.frombuffer(raw, np.uint8).reshape(-1, 560, 640, 3))
+
+
+def film_of(motion, block=None, count=200):
+    window = _window(motion, block or NOMINAL, None)
+    return window, _Film(motion, block, np.linspace(*window, count), 1.0)
+
+
+def flat(frame):
+    """How much wider than high the block is."""
+    x, y = wood(frame)
+    return np.ptp(x) / np.ptp(y)
 
 
 def pixels(frame, red, green, blue, rows=SCENE_ROWS):
@@ -97,19 +99,14 @@ def test_block_leans_as_the_motion_says_and_the_base_moves_against_its_accelerat
 
 def test_displacement_of_the_base_is_to_scale_where_the_picture_says_so():
     # amplitude a_x/ω² = 0.5 m, a quarter of the block's height: no factor is needed
-    block = rk.Block(height=2.0, width=0.5)
-    from rocking.plot.film import _Film
-
-    motion = rk.simulate(block.system(displacement=0.5, frequency_hz=0.5), cycles=4)
-    film = _Film(motion, block, np.linspace(0, motion.duration, 200), 1.0)
+    motion = rk.simulate(BLOCK.system(displacement=0.5, frequency_hz=0.5), cycles=4)
+    film = _Film(motion, BLOCK, np.linspace(0, motion.duration, 200), 1.0)
     assert "displacement of the base to scale" in film.figure.texts[1].get_text()
     assert np.abs(film.scene.base).max() == pytest.approx(0.5, rel=1e-3)
 
 
 def test_small_angles_are_exaggerated_and_the_picture_says_by_how_much():
-    from rocking.plot.film import NOMINAL, _Film
-
-    motion = rk.simulate(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), cycles=60)
+    motion = rk.simulate(SYSTEM, cycles=60)
     film = _Film(motion, None, np.linspace(50, 60, 500), 1.0)
     assert "angle × 5" in film.figure.texts[1].get_text()
     largest = 5 * float(np.abs(motion.at(film.times)[0]).max()) * NOMINAL.critical_angle
@@ -117,36 +114,30 @@ def test_small_angles_are_exaggerated_and_the_picture_says_by_how_much():
     assert film.scene.outlines[..., 1].max() == pytest.approx(expected)
 
 
-def test_fall_is_shown_until_the_block_lies_flat(tmp_path):
-    block = rk.Block(height=2.0, width=0.5)
-    frames = gif_frames(
-        rk.plot.animation(rk.simulate(FALLING, cycles=50), tmp_path / "a.gif", block, seconds=2)
-    )
-    x, y = wood(frames[-1])
+@pytest.mark.parametrize("motion", [rk.simulate(FALLING, cycles=50), rk.simulate(PUSHED)])
+def test_fall_is_shown_until_the_block_lies_flat(tmp_path, motion):
+    frames = gif_frames(rk.plot.animation(motion, tmp_path / "a.gif", BLOCK, seconds=2, fps=10))
     # the outline takes up to 4 of the block's 63 pixels across
-    assert np.ptp(x) / np.ptp(y) == pytest.approx(4.0, rel=4 / 63)
+    assert flat(frames[-1]) == pytest.approx(4.0, rel=4 / 63)
     assert abs(lean(frames[0])) < 0.05
 
 
 def test_block_that_starts_beyond_the_fall_lies_flat_at_once(tmp_path):
     motion = rk.simulate(FALLING, rk.State(angle=7.0), cycles=5)
-    x, y = wood(gif_frames(rk.plot.animation(motion, tmp_path / "a.gif", seconds=0.2))[0])
-    assert np.ptp(x) > 3 * np.ptp(y)
+    assert flat(gif_frames(rk.plot.animation(motion, tmp_path / "a.gif", seconds=0.2))[0]) > 3
 
 
 @pytest.mark.parametrize("angle", [1.2, 5.0, 7.0])
 def test_dot_lies_on_the_curve_of_a_block_that_starts_beyond_return(angle):
-    from rocking.plot.film import NOMINAL, _Film, _window
-
     motion = rk.simulate(
         rk.System(rk.Harmonic(amplitude=1.0, period=1.0), restitution=0.9), rk.State(angle=angle), cycles=50
     )
-    film = _Film(motion, None, np.linspace(*_window(motion, NOMINAL, None), 10), 1.0)
+    _, film = film_of(motion, count=10)
     below = film.figure.axes[1]
-    (curve,) = (line for line in below.lines if line.get_gid() == "motion")
+    curve = points(below, "motion").T
     drawn = [(*film.dot.get_xdata(), *film.dot.get_ydata()) for _ in film.frames()]
     for time, height in drawn:
-        assert height == pytest.approx(np.interp(time, *curve.get_data()), abs=1e-3)
+        assert height == pytest.approx(np.interp(time, *curve), abs=1e-3)
     assert 0 < drawn[0][1] < below.get_ylim()[1]
 
 
@@ -162,8 +153,6 @@ def test_dot_lies_on_the_curve_of_a_block_that_starts_beyond_return(angle):
     ids=["decay", "before rest", "still", "shaken", "fast"],
 )
 def test_film_shows_the_end_of_the_motion_unless_told_otherwise(motion, window):
-    from rocking.plot.film import NOMINAL, _window
-
     assert _window(motion, NOMINAL, None) == pytest.approx(window)
 
 
@@ -191,15 +180,12 @@ def test_colours_are_exact_and_the_same_in_every_frame(tmp_path, system, start):
         (FREE, 0.5, None, "Θ = −0.098"),
         (FREE, 0.0, None, "Θ = +0.00"),
         (FREE, 1e-8, None, "Θ = −4.33e−09"),
-        (BRACED, 0.0, rk.Block(height=2.0, width=0.5), "°"),
+        (BRACED, 0.0, BLOCK, "°"),
     ],
 )
 def test_reading_has_three_figures_of_the_largest_angle(system, start, block, reading):
-    from rocking.plot.film import NOMINAL, _Film, _window
-
     motion = rk.simulate(system, rk.State(angle=start), cycles=200)
-    window = _window(motion, NOMINAL, None)
-    film = _Film(motion, block, np.linspace(*window, 5), 1.0)
+    _, film = film_of(motion, block, count=5)
     said = [film.reading.get_text() for _ in film.frames()]
     assert any(reading in text for text in said)
     assert not any(text.rstrip("°").endswith(("−0.00", "−0.000")) for text in said)
@@ -207,11 +193,10 @@ def test_reading_has_three_figures_of_the_largest_angle(system, start, block, re
 
 @pytest.mark.parametrize("side", [-1, 1])
 def test_block_touches_the_brace_with_its_upper_corner(side):
-    block = rk.Block(height=2.0, width=0.5)
     figure, (ax,) = rk.plot.panels()
-    scene = Scene(ax, block, np.array([side * 0.2]), np.zeros(1), brace=0.2)
+    scene = Scene(ax, BLOCK, np.array([side * 0.2]), np.zeros(1), brace=0.2)
     figure.canvas.draw()
-    posts = [part for part in scene.parts if getattr(part, "get_height", lambda: 0)() > block.height]
+    posts = [part for part in scene.parts if getattr(part, "get_height", lambda: 0)() > BLOCK.height]
     faces = {
         -1: max(post.get_x() + post.get_width() for post in posts if post.get_x() < 0),
         1: max(p.get_x() for p in posts),
@@ -236,13 +221,6 @@ def test_interrupted_film_leaves_what_was_there(tmp_path, monkeypatch, suffix):
         rk.plot.animation(rk.simulate(SYSTEM, cycles=5), path, seconds=1)
     assert [file.name for file in tmp_path.iterdir()] == [path.name]
     assert path.read_bytes() == b"old"
-
-
-def film_of(motion, block, count=200):
-    from rocking.plot.film import NOMINAL, _Film, _window
-
-    window = _window(motion, block or NOMINAL, None)
-    return window, _Film(motion, block, np.linspace(*window, count), 1.0)
 
 
 def test_base_moves_as_the_record_integrated_twice():
@@ -282,14 +260,8 @@ def test_film_of_a_record_begins_before_the_lift_off_and_ends_after_rest():
 
 
 def test_film_of_a_record_without_block_gives_the_drift_in_heights():
-    (_, _), film = film_of(rk.simulate(PUSHED), None)
+    _, film = film_of(rk.simulate(PUSHED))
     assert re.search(r"base displacement .*, drift \d\S* heights at the end", film.figure.texts[1].get_text())
-
-
-def test_fall_under_a_record_is_shown_until_the_block_lies_flat(tmp_path):
-    frames = gif_frames(rk.plot.animation(rk.simulate(PUSHED), tmp_path / "a.gif", BLOCK, seconds=1, fps=10))
-    x, y = wood(frames[-1])
-    assert np.ptp(x) / np.ptp(y) == pytest.approx(4.0, rel=4 / 63)
 
 
 def test_block_that_never_moves_under_a_record_is_filmed_for_its_length():

@@ -5,17 +5,10 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import rocking as rk
+from drawn import legend, points
 from rocking.plot.curves import LOOKS as CURVES
 from rocking.plot.palette import LOOKS
 from surveyed import system_with
-
-
-def drawn(ax, gid):
-    return [line.get_xydata() for line in ax.lines if line.get_gid() == gid]
-
-
-def legend(ax):
-    return [text.get_text() for text in ax.get_legend().get_texts()]
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +33,7 @@ def test_every_special_point_has_its_marker_on_the_line(family):
     ax = rk.plot.branch(family)
     for kind in ("fold", "symmetry-breaking", "period-doubling", "grazing"):
         expected = [special for one in family for special in one.special if special.kind == kind]
-        (marks,) = drawn(ax, kind)
+        marks = points(ax, kind)
         assert marks[:, 0].tolist() == [special.parameter for special in expected]
         lines = np.concatenate([line.get_xydata() for line in ax.lines if line.get_linestyle() != "None"])
         for mark in marks:  # as near as the branch's points lie to each other
@@ -71,7 +64,7 @@ def test_a_fold_is_where_its_line_turns():
     ax = rk.plot.branch(branch)
     (fold,) = (special.parameter for special in branch.special if special.kind == "fold")
     for word in ("stable", "unstable"):
-        (line,) = drawn(ax, f"symmetric, {word}")
+        line = points(ax, f"symmetric, {word}")
         assert line[np.isfinite(line[:, 1]), 0].min() == fold < branch.points["parameter"].min()
 
 
@@ -92,8 +85,7 @@ def test_legend_of_two_types_of_curves_lies_within_the_figure():
     found = rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
     ax = rk.plot.bifurcation_curve(found.curves)
     ax.figure.canvas.draw()
-    names = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert names == ["period doubling, period 1", "symmetry breaking, period 1"]
+    assert legend(ax) == ["period doubling, period 1", "symmetry breaking, period 1"]
     box, page = ax.get_legend().get_window_extent(), ax.figure.bbox
     assert page.x0 <= box.x0 < box.x1 <= page.x1
 
@@ -129,11 +121,11 @@ def test_what_a_start_from_rest_does_is_marked_at_every_value(response):
     rest, values = response.rest, response.values
     marked = []
     for kind in set(rest["kind"]) - {"overturned"}:
-        (points,) = drawn(ax, f"rest {kind}")
+        shown = points(ax, f"rest {kind}")
         heights = np.where(np.isnan(rest["steady_peak"]), rest["peak"], rest["steady_peak"])
-        np.testing.assert_array_equal(points, np.column_stack([values, heights])[rest["kind"] == kind])
-        marked += points[:, 0].tolist()
-    (bars,) = drawn(ax, "overturned")
+        np.testing.assert_array_equal(shown, np.column_stack([values, heights])[rest["kind"] == kind])
+        marked += shown[:, 0].tolist()
+    bars = points(ax, "overturned")
     ends = bars[:, 0].reshape(-1, 3)[:, :2]
     covered = [bool(((ends[:, 0] <= value) & (value <= ends[:, 1])).any()) for value in values]
     assert covered == (rest["kind"] == "overturned").tolist()

@@ -5,6 +5,7 @@ import pytest
 from attrs import evolve
 
 import rocking as rk
+from drawn import artist
 
 BRACED = rk.System(rk.Harmonic(15.0, period=2.0), 0.925, rk.Braces(1.0, 1.0))
 
@@ -12,11 +13,6 @@ BRACED = rk.System(rk.Harmonic(15.0, period=2.0), 0.925, rk.Braces(1.0, 1.0))
 @pytest.fixture(scope="module")
 def spectrum():
     return rk.lyapunov(BRACED, cycles=3_000)
-
-
-def artist(ax, gid):
-    (found,) = (child for child in ax.get_children() if child.get_gid() == gid)
-    return found
 
 
 @pytest.mark.parametrize("exponent", [1, 2])

@@ -4,16 +4,12 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from drawn import artist
 
 
 @pytest.fixture(scope="module")
 def square():
     return rk.correlation_dimension(np.random.default_rng(1).random((6_000, 2)))
-
-
-def artist(ax, gid):
-    (found,) = (child for child in ax.get_children() if child.get_gid() == gid)
-    return found
 
 
 def slopes_axis(ax):

@@ -3,6 +3,7 @@
 import numpy as np
 
 import rocking as rk
+from drawn import legend
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=4.0, period=1.0), restitution=0.8)
 GROWN = rk.saddle_manifolds(SYSTEM, phase=7.0, cycles=2)
@@ -42,5 +43,5 @@ def test_frame_holds_the_saddles_and_what_lies_between():
 
 
 def test_legend_names_each_curve():
-    texts = [text.get_text() for text in rk.plot.manifolds(GROWN).get_legend().get_texts()]
+    texts = legend(rk.plot.manifolds(GROWN))
     assert texts == ["stable, Θ ≈ +1", "stable, Θ ≈ −1", "unstable, Θ ≈ +1", "unstable, Θ ≈ −1", "saddles"]

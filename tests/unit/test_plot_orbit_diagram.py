@@ -1,4 +1,4 @@
-"""Figure of an orbit diagram: all points, few or many, the given branches, and overturning."""
+"""Figure of an orbit diagram: all shown, few or many, the given branches, and overturning."""
 
 import io
 
@@ -7,16 +7,12 @@ import pytest
 from PIL import Image
 
 import rocking as rk
+from drawn import legend, points
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
 VALUES = np.linspace(10.4, 11.5, 23)
 BOTH = rk.orbit_diagram(SYSTEM, amplitude=VALUES, cycles=8)
 UP = rk.orbit_diagram(SYSTEM, amplitude=VALUES, sweep="up", cycles=8)
-
-
-def drawn(ax, gid):
-    (line,) = (line for line in ax.lines if line.get_gid() == gid)
-    return np.column_stack([line.get_xdata(), line.get_ydata()])
 
 
 @pytest.fixture(scope="module")
@@ -40,29 +36,29 @@ def doubling_of(branch):
 
 @pytest.mark.parametrize("quantity, column", [("angle", 0), ("velocity", 1)])
 def test_every_point_is_drawn_and_none_twice(quantity, column):
-    points = drawn(rk.plot.orbit_diagram(UP, quantity=quantity), "up")
+    shown = points(rk.plot.orbit_diagram(UP, quantity=quantity), "up")
     heights = UP.points[0, :, :, column]
     for value, row in zip(VALUES, heights, strict=True):
-        there = points[points[:, 0] == value, 1]
+        there = shown[shown[:, 0] == value, 1]
         if np.isnan(row).any():
             assert not len(there)
             continue
         finest = 1.01e-4 * np.ptp(heights[np.isfinite(heights)])
         assert np.abs(row[:, None] - there).min(axis=1).max() <= finest
         assert len(there) <= len(row)
-    assert (points[:, 0] == VALUES[0]).sum() == 1  # period 1, eight times the same
+    assert (shown[:, 0] == VALUES[0]).sum() == 1  # period 1, eight times the same
 
 
 def test_peak_has_one_point_a_value():
-    points = drawn(rk.plot.orbit_diagram(UP, quantity="peak"), "up")
+    shown = points(rk.plot.orbit_diagram(UP, quantity="peak"), "up")
     kept = ~UP.overturned[0]
-    np.testing.assert_array_equal(points, np.column_stack([VALUES[kept], UP.peak[0, kept]]))
+    np.testing.assert_array_equal(shown, np.column_stack([VALUES[kept], UP.peak[0, kept]]))
 
 
 def test_bars_lie_under_the_values_that_overturned():
     ax = rk.plot.orbit_diagram(BOTH)
     for row, way in enumerate(BOTH.sweeps):
-        ends = drawn(ax, f"overturned {way}")[:, 0].reshape(-1, 3)[:, :2]
+        ends = points(ax, f"overturned {way}")[:, 0].reshape(-1, 3)[:, :2]
         covered = [bool(((ends[:, 0] <= v) & (v <= ends[:, 1])).any()) for v in VALUES]
         assert covered == BOTH.overturned[row].tolist()
     assert any(covered)
@@ -79,8 +75,8 @@ def test_nothing_overturned_has_no_bar():
 
 def test_all_overturned_is_still_a_picture():
     ax = rk.plot.orbit_diagram(rk.orbit_diagram(SYSTEM, amplitude=[40.0, 50.0], sweep="rest", cycles=3))
-    assert len(drawn(ax, "rest")) == 0
-    assert len(drawn(ax, "overturned rest")) == 3
+    assert len(points(ax, "rest")) == 0
+    assert len(points(ax, "overturned rest")) == 3
 
 
 def test_branches_are_solid_where_stable_and_dashed_where_not_and_change_where_they_do(branch, twice):
@@ -92,17 +88,17 @@ def test_branches_are_solid_where_stable_and_dashed_where_not_and_change_where_t
     reach = [np.array(line.get_xdata())[np.isfinite(line.get_ydata())] for line in (solid[0], dashed[0])]
     doubling = doubling_of(branch).parameter
     assert reach[0].max() == reach[1].min() == doubling
-    points = branch.points
-    stable = points["parameter"][points["stable"]]
+    shown = branch.points
+    stable = shown["parameter"][shown["stable"]]
     assert set(stable) <= set(reach[0])
-    assert set(points["parameter"]) <= set(reach[0]) | set(reach[1])
+    assert set(shown["parameter"]) <= set(reach[0]) | set(reach[1])
 
 
 def test_stable_branches_lie_on_the_points(branch, twice):
     ax = rk.plot.orbit_diagram(UP, branches=[branch, twice])
     lines = [line.get_xydata() for line in ax.lines if line.get_gid() == "stable branch"]
     for value, angles in zip(VALUES[:6], UP.points[0, :6, :, 0], strict=True):
-        # what is drawn lies between points of the branch
+        # what is drawn lies between shown of the branch
         near = [
             np.interp(value, *line[np.isfinite(line[:, 1])].T)
             for line in (lines[1:] if value > 10.48 else lines[:1])
@@ -132,7 +128,7 @@ def test_branches_are_taken_at_the_section_of_the_diagram(branch):
 
 def test_legend_names_each_once_and_in_order(branch, twice):
     ax = rk.plot.orbit_diagram(BOTH, branches=[branch, twice])
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == [
+    assert legend(ax) == [
         "swept up",
         "swept down",
         "stable orbits",

@@ -11,6 +11,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 import rocking as rk
+from drawn import legend
 from rocking.plot.palette import LOOKS
 from surveyed import system_with
 
@@ -64,10 +65,6 @@ def colours_around(ax, x, y, reach=0.3):
 
 def colour(name):
     return tuple(round(part, 2) for part in to_rgb(name))
-
-
-def legend(ax):
-    return [text.get_text() for text in ax.get_legend().get_texts()]
 
 
 @pytest.mark.parametrize("row, name", SEEN.items(), ids=str)
@@ -229,8 +226,7 @@ def test_legend_says_of_a_curve_that_it_is_not_here():
     found = a_map([("rest", 0, 2)] * 5, restitution=0.9)
     high = found.assign_coords(amplitude=found.amplitude + 900.0)
     for each, label in ((found, "$A_M$ (Melnikov)"), (high, "$A_M$ (Melnikov) (outside)")):
-        legend = rk.plot.parametric_map(each, curves=["melnikov"]).get_legend()
-        assert label in [text.get_text() for text in legend.get_texts()]
+        assert label in legend(rk.plot.parametric_map(each, curves=["melnikov"]))
 
 
 def test_curve_of_a_mode_is_dotted_where_the_mode_is_not_admissible():

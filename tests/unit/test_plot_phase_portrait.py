@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from drawn import artist, legend, points
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 BRACED = rk.System(
@@ -11,14 +12,8 @@ BRACED = rk.System(
 )
 
 
-def named(ax, name):
-    (line,) = (line for line in ax.lines if line.get_gid() == name)
-    return np.column_stack([line.get_xdata(), line.get_ydata()])
-
-
 def strokes(ax, kind):
-    (collection,) = (c for c in ax.collections if c.get_gid() == f"{kind} strokes")
-    return np.array(collection.get_segments())
+    return np.array(artist(ax, f"{kind} strokes").get_segments())
 
 
 def test_strokes_at_the_base_take_the_velocity_from_before_to_e_times_it():
@@ -42,35 +37,35 @@ def test_strokes_at_the_braces_turn_the_velocity_back_by_r():
 def test_marks_sit_at_both_ends_of_the_strokes(kind):
     ax = rk.plot.phase_portrait(rk.simulate(BRACED, cycles=40))
     ends = strokes(ax, kind)
-    np.testing.assert_array_equal(named(ax, f"{kind} before"), ends[:, 0])
-    np.testing.assert_array_equal(named(ax, f"{kind} after"), ends[:, 1])
+    np.testing.assert_array_equal(points(ax, f"{kind} before"), ends[:, 0])
+    np.testing.assert_array_equal(points(ax, f"{kind} after"), ends[:, 1])
 
 
 def test_curve_never_crosses_a_jump():
     motion = rk.simulate(BRACED, cycles=40)
-    points = named(rk.plot.phase_portrait(motion), "motion")
-    steps = np.abs(np.diff(points[:, 1]))
+    curve = points(rk.plot.phase_portrait(motion), "motion")
+    steps = np.abs(np.diff(curve[:, 1]))
     jumps = np.abs(motion.events["after"] - motion.events["before"])
     # |Θ''| ≤ 1 + A + |Θ| = 17, and two neighbours are at most 1/64 apart
     assert np.nanmax(steps) <= 17 / 64
     assert jumps.max() > 10 * np.nanmax(steps)
-    assert np.isnan(points[:, 0]).sum() == np.count_nonzero(jumps)
+    assert np.isnan(curve[:, 0]).sum() == np.count_nonzero(jumps)
 
 
 def test_curve_ends_and_begins_at_the_marks():
     motion = rk.simulate(SYSTEM, cycles=20)
     ax = rk.plot.phase_portrait(motion)
-    points = named(ax, "motion")
-    gaps = np.flatnonzero(np.isnan(points[:, 0]))
-    np.testing.assert_array_equal(points[gaps - 1], named(ax, "impact before"))
-    np.testing.assert_array_equal(points[gaps + 1], named(ax, "impact after"))
+    curve = points(ax, "motion")
+    gaps = np.flatnonzero(np.isnan(curve[:, 0]))
+    np.testing.assert_array_equal(curve[gaps - 1], points(ax, "impact before"))
+    np.testing.assert_array_equal(curve[gaps + 1], points(ax, "impact after"))
 
 
 def test_without_loss_before_and_after_coincide_and_the_curve_is_whole():
     lossless = rk.System(rk.Harmonic(amplitude=4.0, period=0.4), restitution=1.0)
     ax = rk.plot.phase_portrait(rk.simulate(lossless, cycles=60))
-    np.testing.assert_array_equal(named(ax, "impact before"), named(ax, "impact after"))
-    assert not np.isnan(named(ax, "motion")).any()
+    np.testing.assert_array_equal(points(ax, "impact before"), points(ax, "impact after"))
+    assert not np.isnan(points(ax, "motion")).any()
 
 
 def test_window_leaves_out_the_impacts_outside_it():
@@ -82,8 +77,7 @@ def test_window_leaves_out_the_impacts_outside_it():
 
 def test_key_names_the_kinds_of_impact_that_occur():
     def names(system):
-        legend = rk.plot.phase_portrait(rk.simulate(system, cycles=20)).get_legend()
-        return [text.get_text() for text in legend.get_texts()]
+        return legend(rk.plot.phase_portrait(rk.simulate(system, cycles=20)))
 
     assert names(SYSTEM) == ["before impact", "after impact"]
     assert names(BRACED) == ["before impact", "after impact", "before brace impact", "after brace impact"]
@@ -104,7 +98,7 @@ def test_marks_of_the_key_can_be_read_however_many_impacts_there_are():
 def test_block_that_never_moves_is_a_dot_without_a_key(start, braces):
     still = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9, braces=braces)
     ax = rk.plot.phase_portrait(rk.simulate(still, rk.State(angle=start), cycles=5))
-    assert {tuple(point) for point in named(ax, "motion")} == {(start, 0.0)}
+    assert {tuple(point) for point in points(ax, "motion")} == {(start, 0.0)}
     assert [line.get_marker() for line in ax.lines] == ["o"]
     assert ax.get_legend() is None
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from drawn import points
 
 
 @pytest.fixture(scope="module")
@@ -21,18 +22,13 @@ def quasi_periodic():
     return rk.spectral_density(rk.simulate(system, cycles=4_096))
 
 
-def curve(ax):
-    (line,) = (line for line in ax.lines if line.get_gid() == "spectrum")
-    return np.asarray(line.get_data())
-
-
 def boxes(ax):
     ax.figure.draw_without_rendering()
     return [text.get_window_extent() for text in ax.texts]
 
 
 def test_density_is_drawn_to_the_multiple_asked_for(periodic):
-    frequency, density = curve(rk.plot.spectrum(periodic, highest=2.0))
+    frequency, density = points(rk.plot.spectrum(periodic, highest=2.0), "spectrum").T
     last = np.searchsorted(periodic.forcing_multiples, 2.0 * (1 + 1e-9), side="right")
     np.testing.assert_array_equal(frequency, periodic.frequency[1:last])
     np.testing.assert_array_equal(density, periodic.density[1:last])
@@ -93,7 +89,7 @@ def test_multiples_of_the_forcing_are_marked(periodic):
 def test_block_gives_hertz_and_keeps_the_power(periodic):
     block = rk.Block(height=2.0, width=0.5)
     ax = rk.plot.spectrum(periodic, block=block, highest=8.0)
-    hertz, density = curve(ax)
+    hertz, density = points(ax, "spectrum").T
     seconds = block.seconds(0.4)
     assert math.isclose(hertz[density.argmax()], 1 / (3 * seconds), rel_tol=1e-9)
     degrees = block.degrees(math.sqrt(periodic.variance))

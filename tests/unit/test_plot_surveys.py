@@ -5,6 +5,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import rocking as rk
+from drawn import artist, legend
 from rocking.model.record_results import OverturningSet
 from rocking.model.text import percent
 from rocking.plot.state_surveys import colours
@@ -28,12 +29,8 @@ def curve():
     )
 
 
-def drawn(ax, gid):
-    return next(each for each in (*ax.collections, *ax.lines, *ax.patches) if each.get_gid() == gid)
-
-
 def test_each_start_has_the_colour_of_its_attractor(basins):
-    mesh = drawn(rk.plot.basins(basins), "basins")
+    mesh = artist(rk.plot.basins(basins), "basins")
     mesh.update_scalarmappable()
     shown = mesh.get_facecolors()[:, :3].reshape(31, 31, 3)
     hues = np.array([to_rgb(hue) for hue in colours(basins.attractors)])
@@ -46,7 +43,7 @@ def test_colours_of_attractors_differ_however_many_there_are(basins):
 
 
 def test_a_legend_tells_names_and_shares(basins):
-    texts = [text.get_text() for text in rk.plot.basins(basins).get_legend().get_texts()]
+    texts = legend(rk.plot.basins(basins))
     pairs = zip(basins.attractors, basins.fractions, strict=True)
     assert texts == [f"{each.name} ({percent(share.value)})" for each, share in pairs]
 
@@ -68,7 +65,7 @@ def test_all_is_a_hundred_percent():
 
 def test_random_starts_are_points():
     found = rk.basin_map(SYSTEM, angle=(-1, 1), velocity=(-1, 1), samples=50, boundary_runs=0)
-    assert len(drawn(rk.plot.basins(found), "basins").get_offsets()) == 50
+    assert len(artist(rk.plot.basins(found), "basins").get_offsets()) == 50
 
 
 def test_a_safe_area_is_drawn_beside_its_thresholds():
@@ -76,15 +73,15 @@ def test_a_safe_area_is_drawn_beside_its_thresholds():
         rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.8), amplitude=[3.0, 4.0, 5.0], samples=200
     )
     ax = rk.plot.safe_basin(found)
-    assert drawn(ax, "safe").get_ydata() == pytest.approx(100 * found.dataset.safe.values)
+    assert artist(ax, "safe").get_ydata() == pytest.approx(100 * found.dataset.safe.values)
     upright = sorted(line.get_xdata()[0] for line in ax.lines if line.get_gid() != "safe")
     assert upright == sorted([found.heteroclinic_amplitude, found.melnikov_amplitude])
 
 
 def test_an_overturning_curve_lies_over_the_shares(curve):
     ax = rk.plot.overturning(curve)
-    assert drawn(ax, "lowest").get_ydata() == pytest.approx(curve.dataset.lowest.values, nan_ok=True)
-    assert np.asarray(drawn(ax, "share").get_array()).ravel() == pytest.approx(
+    assert artist(ax, "lowest").get_ydata() == pytest.approx(curve.dataset.lowest.values, nan_ok=True)
+    assert np.asarray(artist(ax, "share").get_array()).ravel() == pytest.approx(
         100 * curve.dataset.overturning_share.values.T.ravel()
     )
 
@@ -94,7 +91,7 @@ def test_shares_of_one_period_are_seen_where_nothing_overturns():
         rk.System(rk.Harmonic(1.0, period=0.3), restitution=0.925), amplitude=[1.0, 2.0], phases=2
     )
     ax = rk.plot.overturning(found)
-    assert drawn(ax, "share").get_ydata().tolist() == [0.0, 0.0]
+    assert artist(ax, "share").get_ydata().tolist() == [0.0, 0.0]
     low, high = ax.get_ylim()
     assert low < 0.0
     assert high > 100.0
@@ -119,7 +116,7 @@ def test_points_that_are_not_certain_have_a_colour_of_their_own():
         period=np.linspace(0.8, 2.0, 12),
         samples=8,
     )
-    values = drawn(rk.plot.repeatability_map(found), "map").get_array()
+    values = artist(rk.plot.repeatability_map(found), "map").get_array()
     assert np.count_nonzero(np.asarray(values) == len(rk.Kind)) == found.uncertain.count > 0
 
 
@@ -134,13 +131,13 @@ def test_bands_are_the_intervals_of_each_record(levels_that_overturn):
     ax = rk.plot.overturning_set(found)
     seen = np.ptp(found.levels) / 400
     for record in range(3):
-        boxes = [path.get_extents() for path in drawn(ax, f"bands {record}").get_paths()]
+        boxes = [path.get_extents() for path in artist(ax, f"bands {record}").get_paths()]
         intervals = found.intervals(record)
         assert [box.x0 for box in boxes] == pytest.approx(intervals[:, 0])
         widths = np.maximum(np.ptp(intervals, axis=1), seen)
         assert [box.width for box in boxes] == pytest.approx(widths)
         assert {round((box.y0 + box.y1) / 2) for box in boxes} == {record}
-    assert drawn(ax, "lowest").get_xdata().tolist() == found.lowest.tolist()
+    assert artist(ax, "lowest").get_xdata().tolist() == found.lowest.tolist()
     assert [tick.get_text() for tick in ax.get_yticklabels()] == ["synthetic 1", "synthetic 2", "synthetic 3"]
     assert ax.get_xlim() == (0.3, 0.8)
 
@@ -149,7 +146,7 @@ def test_undecided_switches_are_marked(levels_that_overturn):
     data = levels_that_overturn.dataset.copy(deep=True)
     data.switch_certified.values[:2] = False
     doubtful = OverturningSet(data, levels_that_overturn.records, levels_that_overturn.block)
-    marks = drawn(rk.plot.overturning_set(doubtful), "undecided")
+    marks = artist(rk.plot.overturning_set(doubtful), "undecided")
     assert marks.get_xdata().tolist() == doubtful.switches["level"][:2].tolist()
     assert not any(
         line.get_gid() == "undecided" for line in rk.plot.overturning_set(levels_that_overturn).lines
@@ -197,7 +194,7 @@ def one_sine():
 
 
 def test_colours_are_the_modes_of_overturning(one_sine):
-    codes = drawn(rk.plot.overturning_spectrum(one_sine), "outcomes").get_array()
+    codes = artist(rk.plot.overturning_spectrum(one_sine), "outcomes").get_array()
     falls, mode = one_sine.outcome.values == 2, one_sine.impacts_since_rest.values
     assert ((codes == 2) == (falls & (mode == 0))).all()
     assert ((codes == 3) == (falls & (mode == 1))).all()
@@ -205,7 +202,7 @@ def test_colours_are_the_modes_of_overturning(one_sine):
     assert {2, 3} <= set(codes.ravel().tolist())
     doubtful = one_sine.copy(deep=True)
     doubtful.certified.values[3, 4] = 0
-    marked = drawn(rk.plot.overturning_spectrum(doubtful), "outcomes").get_array()
+    marked = artist(rk.plot.overturning_spectrum(doubtful), "outcomes").get_array()
     assert np.argwhere(marked == 5).tolist() == [[3, 4]]
 
 

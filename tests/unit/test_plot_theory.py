@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from drawn import legend
 
 
 def lines(ax):
@@ -49,7 +50,7 @@ def test_inadmissible_modes_are_dotted_and_named():
     x, _ = drawn(lines(ax)["faster inadmissible"])
     assert x[0] > 9
     assert x[-1] > rk.theory.symmetry_breaking_amplitude(0.4, 0.925, 3)
-    texts = [text.get_text() for text in ax.get_legend().get_texts()]
+    texts = legend(ax)
     assert texts == ["stable", "unstable", "inadmissible", "faster", "slower"]
 
 
@@ -111,4 +112,4 @@ def test_thresholds_are_dotted_where_they_do_not_hold():
     np.testing.assert_array_equal(drawn(whole)[0], periods)
     np.testing.assert_array_equal(drawn(solid)[0], periods[[0, 1, 2, 4]])
     np.testing.assert_array_equal(drawn(dotted)[0], periods[[2, 3, 4]])
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["a", "b"]
+    assert legend(ax) == ["a", "b"]

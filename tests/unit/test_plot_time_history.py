@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from drawn import points
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 BRACED = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0))
@@ -16,8 +17,7 @@ CHATTERING = rk.System(rk.Harmonic(amplitude=1.3, period=3.0), restitution=0.4)
 
 
 def curve(ax):
-    (line,) = (line for line in ax.lines if line.get_gid() == "motion")
-    return np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+    return points(ax, "motion").T
 
 
 @pytest.mark.parametrize("system", [SYSTEM, BRACED, CHATTERING])
@@ -132,8 +132,7 @@ def panel(ax):
     """The curve of the base acceleration, and its axes below those of the angle."""
     above, below = ax.figure.axes
     assert above is ax
-    (line,) = (line for line in below.lines if line.get_gid() == "base")
-    return below, np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+    return below, *points(below, "base").T
 
 
 def test_record_stands_below_the_angle_with_every_sample_on_the_same_time_axis():

@@ -9,6 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 
 import rocking as rk
+from drawn import artists
 from rocking.plot.palette import COLOURS
 
 
@@ -34,8 +35,8 @@ def verdict_of(name):
     return rk.classify(*CASES[name])
 
 
-def artists(figure, gid):
-    return [child for ax in figure.axes for child in ax.get_children() if child.get_gid() == gid]
+def artists_of(figure, gid):
+    return [each for ax in figure.axes for each in artists(ax, gid)]
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -78,7 +79,7 @@ def test_a_note_says_where_the_run_that_is_drawn_contradicts_the_verdict():
 @pytest.mark.parametrize("name", ["periodic", "period 10"])
 def test_last_cycles_repeat_themselves_and_are_those_of_the_orbit(name):
     verdict = verdict_of(name)
-    (history,) = (child for child in artists(rk.plot.verdict(verdict), "motion")[:1])
+    (history,) = (child for child in artists_of(rk.plot.verdict(verdict), "motion")[:1])
     time, angle = history.get_data()
     period = verdict.period * verdict.system.forcing.period
     first = np.interp(time[time < period], time, angle)
@@ -92,7 +93,7 @@ def test_last_cycles_repeat_themselves_and_are_those_of_the_orbit(name):
 def test_rings_mark_every_point_of_the_orbit_and_the_way_ends_there(name):
     verdict = verdict_of(name)
     figure = rk.plot.verdict(verdict)
-    (rings,), (points,) = artists(figure, "orbit"), artists(figure, "section")
+    (rings,), (points,) = artists_of(figure, "orbit"), artists_of(figure, "section")
     rings, points = np.array(rings.get_data()).T, np.array(points.get_data()).T
     assert len(rings) == verdict.period
     nearest = np.hypot(*(rings[:, None] - points[-verdict.period :]).transpose(2, 0, 1)).min(axis=1)
@@ -101,8 +102,8 @@ def test_rings_mark_every_point_of_the_orbit_and_the_way_ends_there(name):
 
 def test_section_of_what_has_no_orbit_is_that_of_the_response():
     figure = rk.plot.verdict(verdict_of("quasi-periodic"))
-    assert not artists(figure, "orbit")
-    (points,) = artists(figure, "section")
+    assert not artists_of(figure, "orbit")
+    (points,) = artists_of(figure, "section")
     assert len(points.get_xdata()) == 5_001
 
 
