@@ -55,13 +55,6 @@ def advance_all(s, braced):
 
 
 @njit(**KERNEL)
-def pass_on(s, passes):
-    """Advance all lanes ``passes`` times without serving requests."""
-    for _ in range(passes):
-        advance(s)
-
-
-@njit(**KERNEL)
 def to_the_end(s, p, events):
     """March all lanes, of one system, to their targets; ``events`` (lanes, n, 4) takes (cycle, time, side, velocity) after each event."""
     moving, braced = LANES, p.block.brace_angle < math.inf

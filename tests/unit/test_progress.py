@@ -1,7 +1,6 @@
 """Progress by cost: what a log, a terminal and a notebook show, with a clock that the tests move."""
 
 import io
-import re
 import sys
 from types import SimpleNamespace
 
@@ -52,10 +51,6 @@ def in_log(capsys, bar, clock, seconds):
         run(bar, clock, 0.25)
         found += [(clock.now - 100.0, line) for line in capsys.readouterr().err.splitlines()]
     return found
-
-
-def percents(lines):
-    return [int(re.search(r"(\d+) %", line)[1]) for line in lines]
 
 
 def test_log_of_steps_has_a_line_at_least_every_three_seconds(capsys, clock):
