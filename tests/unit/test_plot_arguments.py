@@ -349,6 +349,26 @@ WRONG_VALUES = [
         "result must have at most 3 limits to be drawn; got 4",
         lambda: rk.fragility(RECORDS, BLOCK, [1.0, 5.0], limits=[0.1, 0.2, 0.3, 0.4]).plot(),
     ),
+    (
+        "result must vary over records, size and slenderness alone; got 'polarity' (select one value first, such…",
+        lambda: rk.plot.rocking_spectrum(made("rocking spectrum").dataset.expand_dims(polarity=[1.0])),
+    ),
+    (
+        "result must vary over size or slenderness; got ('record',)…",
+        lambda: rk.plot.rocking_spectrum(made("rocking spectrum").dataset.isel(size=0, slenderness=0)),
+    ),
+    (
+        "result must hold one record to be a map; got '3 records' (select one first, such as result.dataset.isel(record=0))",
+        lambda: rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=np.linspace(0.1, 0.2, 7)).plot(),
+    ),
+    (
+        "across must be one of 'size', 'frequency-parameter'…",
+        lambda: made("rocking spectrum").plot(across="R"),
+    ),
+    (
+        "unit must be one of 'critical', 'degrees'; got 'rad'",
+        lambda: made("rocking spectrum").plot(unit="rad"),
+    ),
     ("n must be an odd whole number…", lambda: rk.plot.modes(1.0, 0.8, 2)),
     (
         "quantity must be one of 'velocity', 'phase'; got 'speed'",

@@ -1,7 +1,6 @@
 """Figures of rocking spectra: one line per record and slenderness, crosses where the block overturns."""
 
 import math
-import re
 
 import numpy as np
 import pytest
@@ -171,50 +170,3 @@ def test_many_slendernesses_are_a_map_with_overturned_blocks_in_grey():
     )
     np.testing.assert_array_equal(~np.ma.getmaskarray(fallen.get_array()).reshape(fell.shape), fell)
     assert ax.get_ylabel() == r"critical angle $\theta_\mathrm{cr}$ (°)"
-
-
-REFUSED = {
-    "no dataset": (
-        lambda found: 3.0,
-        {},
-        TypeError,
-        "result must be a rocking spectrum, as rocking.rocking_spectrum gives it; got 3.0",
-    ),
-    "polarity": (
-        lambda found: found.expand_dims(polarity=[1.0]),
-        {},
-        ValueError,
-        "result must vary over records, size and slenderness alone; got 'polarity' (select one value first, such",
-    ),
-    "no axis": (
-        lambda found: found.isel(size=0, slenderness=0),
-        {},
-        ValueError,
-        "result must vary over size or slenderness; got ('record',)",
-    ),
-    "map of records": (
-        lambda found: rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=np.linspace(0.1, 0.2, 7)),
-        {},
-        ValueError,
-        "result must hold one record to be a map; got '3 records' (select one first, such as result.dataset.isel(record=0))",
-    ),
-    "across": (
-        lambda found: found,
-        {"across": "R"},
-        ValueError,
-        "across must be one of 'size', 'frequency-parameter'",
-    ),
-    "unit": (
-        lambda found: found,
-        {"unit": "rad"},
-        ValueError,
-        "unit must be one of 'critical', 'degrees'; got 'rad'",
-    ),
-}
-
-
-@pytest.mark.parametrize("case", REFUSED)
-def test_result_that_cannot_be_drawn_is_refused_in_one_line(found, case):
-    change, options, error, message = REFUSED[case]
-    with pytest.raises(error, match=f"^{re.escape(message)}"):
-        rk.plot.rocking_spectrum(change(found), **options)
