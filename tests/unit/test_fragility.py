@@ -361,32 +361,6 @@ def test_intervals_cover_the_population():
             assert parts.min() >= 0.92
 
 
-@pytest.mark.parametrize(
-    "options, message",
-    [
-        ({"levels": 3.0}, "levels must be an array of levels, ascending; got 3.0"),
-        ({"levels": [3.0, 2.0]}, "levels must hold two numbers or more in"),
-        ({"limits": [0.5, 0.1]}, "limits must hold numbers in (0, 10], ascending; got [0.5, 0.1]"),
-        (
-            {"limits": math.inf},
-            "limits must hold numbers in (0, 10], ascending; got inf (overturning follows",
-        ),
-        ({"samples": 4}, "samples must be 1 for a certain block; got 4 (give height_spread"),
-        ({"samples": 0}, "samples must be a whole number in [1, 10000]; got 0"),
-        ({"width_spread": 0.6}, "width_spread must lie in [0, 0.5]; got 0.6"),
-        ({"replicates": 10}, "replicates must be a whole number in [100, 100000]; got 10"),
-        ({"seed": -1}, "seed must be a whole number in [0, 4294967295]; got -1"),
-        ({"intensity": "pgx"}, "intensity must be one of 'scale', 'pga'"),
-        ({"block": 2.0}, "block must be a Block; got 2.0"),
-    ],
-)
-def test_bad_input_is_refused_in_one_line(records, options, message):
-    given = {"records": records[:2], "block": BLOCK, "levels": LEVELS} | options
-    with pytest.raises((TypeError, ValueError), match=re.escape(message)) as told:
-        rk.fragility(**given)
-    assert "\n" not in str(told.value)
-
-
 def test_limits_that_are_not_there_have_no_fit(found):
     assert found.fit(0.5) is found.fits[1]
     with pytest.raises(ValueError, match=re.escape("limit must be one of 0.1, 0.5, inf; got 0.3")):

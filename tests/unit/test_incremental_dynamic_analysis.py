@@ -98,27 +98,6 @@ def test_one_line_says_how_many_overturn_and_where(found):
     )
 
 
-@pytest.mark.parametrize(
-    "options, message",
-    [
-        (
-            {"levels": 1.0},
-            "levels must be an array of levels, ascending; got 1.0 (such as np.linspace(1, 10, 19))",
-        ),
-        ({"levels": [1.0]}, "levels must hold two numbers or more in"),
-        ({"angle": [0.0, 0.1]}, "angle must be one number; got [0.0, 0.1]"),
-        ({"polarity": [-1.0, 1.0]}, "polarity must be 1 or -1; got [-1.0, 1.0]"),
-        ({"block": None}, "block must be a Block; got None"),
-        ({"records": []}, "records must hold ground motions, one at least; got []"),
-    ],
-)
-def test_bad_input_is_refused_in_one_line(records, options, message):
-    given = {"records": records[:2], "block": BLOCK, "levels": LEVELS} | options
-    with pytest.raises((TypeError, ValueError), match=re.escape(message)) as told:
-        rk.incremental_dynamic_analysis(**given)
-    assert "\n" not in str(told.value)
-
-
 @pytest.mark.parametrize("of", [0.0, 1.1, [], [[0.5]]])
 def test_fractiles_of_no_fraction_are_refused(found, of):
     with pytest.raises(ValueError, match=re.escape("of must hold fractions in (0, 1]")):

@@ -258,34 +258,6 @@ def test_intervals_end_at_the_last_double_that_overturns():
     assert intervals_of(False, switches[1:2], 1.0, 5.0).tolist() == [[3.0, 5.0]]
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        (
-            {"levels": [2.0, 1.0]},
-            "levels must hold two numbers or more in [1e-09, 1e+06], ascending; got 2.0",
-        ),
-        (
-            {"levels": 2.0},
-            "levels must be an array of levels, ascending; got 2.0 (such as np.linspace(1, 10, 19))",
-        ),
-        ({"polarity": 0.5}, "polarity must be 1 or -1; got 0.5"),
-        ({"polarity": [-1, 1]}, "polarity must be 1 or -1; got [-1, 1]"),
-        ({"polarity": "up"}, "polarity must be 1 or -1; got 'up'"),
-        ({"angle": [0.0, 0.1]}, "angle must be one number; got [0.0, 0.1]"),
-        ({"intensity": "pgx"}, "intensity must be one of 'scale', 'pga'"),
-        ({"block": None}, "block must be a Block; got None"),
-        ({"records": []}, "records must hold ground motions, one at least; got []"),
-        ({"executor": 2}, "executor must be an Executor; got 2"),
-    ],
-)
-def test_errors_state_what_is_allowed(given, message):
-    usual = {"records": push(1.0), "block": BLOCK, "levels": [1.0, 2.0]}
-    with pytest.raises((TypeError, ValueError), match="must") as error:
-        rk.overturning_set(**usual | given)
-    assert str(error.value).startswith(message)
-
-
 @pytest.mark.parametrize("record", [-1, 1, 0.5])
 def test_records_are_counted_from_0(record):
     found = rk.overturning_set(push(1.0), BLOCK, [1.0, 2.0])

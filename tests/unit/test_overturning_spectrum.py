@@ -9,7 +9,6 @@ import pytest
 
 import rocking as rk
 from rocking.model.forcing import KINDS
-from surveyed import system_with
 
 OVERTURNED, STANDS = 2, 1
 RNG = np.random.default_rng(20)
@@ -17,9 +16,6 @@ RNG = np.random.default_rng(20)
 
 def pulsed(kind, restitution):
     return rk.System(rk.Pulse(kind, amplitude=1.0, duration=1.0), restitution)
-
-
-BRACED = rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9, rk.Braces(1.0))
 
 
 def duration_of(kind, frequency):
@@ -126,28 +122,3 @@ def test_store_and_executor_give_the_same_dataset(tmp_path):
     assert all((kept[name].values == plain[name].values).all() for name in ("outcome", "peak", "impacts"))
     with pytest.raises(ValueError, match="pulse|store"):
         rk.overturning_spectrum(rectangular, **plane, store=tmp_path / "store")
-
-
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"system": "one-sine"}, "system must be a System; got 'one-sine'"),
-        ({"system": system_with()}, "system must have a pulse as base motion, rk.Pulse; got Harmonic"),
-        ({"system": BRACED}, "system must have no braces for this survey"),
-        (
-            {"amplitude": 2.0},
-            "amplitude must be an axis, an ascending array in [0, 1000]; got 2.0 (such as np.linspace(",
-        ),
-        ({"frequency": None}, "frequency must be an axis, an ascending array in [0.001, 1000]; got None"),
-        ({"frequency": [2.0, 1.0]}, "frequency must hold two numbers or more in [0.001, 1000], ascending"),
-        (
-            {"restitution": 1.2},
-            "restitution must be an axis, an ascending array in [0, 1]; got 1.2 (a number is",
-        ),
-    ],
-)
-def test_errors_state_what_is_allowed(given, message):
-    usual = {"system": pulsed("one-sine", 0.9), "amplitude": [1.0, 2.0], "frequency": [1.0, 2.0]}
-    with pytest.raises((TypeError, ValueError), match="must") as error:
-        rk.overturning_spectrum(**usual | given)
-    assert str(error.value).startswith(message)

@@ -170,21 +170,6 @@ def test_one_record_is_no_dimension_and_its_name_an_attribute():
     )
 
 
-def test_single_point_is_refused_with_the_way_out():
-    message = "size must be an array if nothing else varies and there is one record; got 1.0 (rk.simulate"
-    with pytest.raises(ValueError, match=f"^{re.escape(message)}"):
-        rk.rocking_spectrum(RECORDS[0], size=1.0, slenderness=0.2)
-
-
-@pytest.mark.parametrize(
-    "given, missing", [({"size": [1.0, 2.0]}, "slenderness"), ({}, "size and slenderness")]
-)
-def test_spectrum_without_a_block_needs_size_and_slenderness(given, missing):
-    message = f"a rocking spectrum needs {missing} (or give a block, which has both)"
-    with pytest.raises(TypeError, match=f"^{re.escape(message)}$"):
-        rk.rocking_spectrum(RECORDS, **given)
-
-
 def test_motion_of_zeros_moves_no_block():
     found = rk.rocking_spectrum(
         rk.GroundMotion([0.0, 0.0], step=0.1), size=[1.0, 2.0], slenderness=0.2

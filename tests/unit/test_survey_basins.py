@@ -1,7 +1,6 @@
 """Basins: each initial state leads to the end of its own motion, and orbits distinguish attractors."""
 
 import math
-import re
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -155,43 +154,6 @@ def test_a_basin_map_in_a_store_is_the_same(tmp_path):
     assert (kept.dataset.attractor.values == plain.dataset.attractor.values).all()
 
 
-@pytest.mark.parametrize(
-    "options, message",
-    [
-        (
-            {"angle": [0.0, 1.0], "velocity": 0.5},
-            "velocity must be an axis, an ascending array in [-1000, 1000]; got 0.5 (such as np.linspace(",
-        ),
-        ({"angle": [1.0, 0.0], "velocity": [0.0, 1.0]}, "angle must hold two numbers or more"),
-        ({"angle": 1.0, "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
-        ({"angle": (1, 0), "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
-        (
-            {"angle": (0, 1), "velocity": (0, 1), "samples": 0},
-            "samples must be a whole number in [1, 10000000]",
-        ),
-        ({"angle": (0, 1), "velocity": (0, 1), "samples": 5, "seed": -1}, "seed must be a whole number"),
-        (
-            {"angle": (0, 1), "velocity": (0, 1), "samples": 5, "repair": True},
-            "repair must be used with store",
-        ),
-        (
-            {"angle": (0, 1), "velocity": (0, 1), "samples": 5, "repair": "x"},
-            "repair must be a bool; got 'x'",
-        ),
-        ({"angle": (0, 1), "velocity": (0, 1), "boundary_runs": 0.5}, "boundary_runs must be a whole number"),
-    ],
-)
-def test_bad_input_is_refused_in_one_line(options, message):
-    with pytest.raises((TypeError, ValueError), match=re.escape(message)) as told:
-        rk.basin_map(MANY, **options)
-    assert "\n" not in str(told.value)
-
-
-def test_starts_beyond_the_braces_are_refused():
-    with pytest.raises(ValueError, match="angle must lie between the braces, in \\[-1, 1\\]; got 2"):
-        rk.basin_map(PAIR, angle=(0, 2), velocity=(0, 1), samples=5)
-
-
 def test_the_safe_area_is_what_the_motions_themselves_say():
     random = np.random.default_rng(7)
     starts = random.uniform((-1, -1), (1, 1), (60, 2))
@@ -320,16 +282,3 @@ def test_progress_of_a_safe_basin_counts_the_states_of_all_amplitudes(terminal):
     title, last = terminal()
     assert title.startswith("600 points in ")
     assert "100 % in 0:00" in last
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"boundary_width": 0}, "boundary_width must lie in"),
-        ({"boundary_width": "a"}, "boundary_width must be a real number"),
-        ({"boundary_width": 0.1, "boundary_runs": 0}, "boundary_runs must be positive to be added to; got 0"),
-    ],
-)
-def test_a_width_that_cannot_be_reached_is_refused(change, message):
-    with pytest.raises((TypeError, ValueError), match=message):
-        rk.basin_map(MANY, angle=(-1, 1), velocity=(-1, 1), samples=10, **change)

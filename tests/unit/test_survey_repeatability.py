@@ -1,6 +1,5 @@
 """Chaos among random systems, and responses to perturbed inputs: each run has the result of `classify`."""
 
-import re
 from collections import Counter
 
 import numpy as np
@@ -166,32 +165,3 @@ def test_the_share_of_chaos_agrees_with_what_is_known_within_both_intervals(rest
     other = rk.Share(known, 3000)
     assert share.low <= other.high
     assert other.low <= share.high
-
-
-@pytest.mark.parametrize(
-    "options, message",
-    [
-        ({"restitution": 0.5}, "restitution must be an axis, an ascending array in [0, 1]; got 0.5"),
-        ({"restitution": [0.5, 0.2]}, "restitution must hold two numbers or more"),
-        ({"period": 1.0}, "period must be a pair (low, high)"),
-        ({"amplitude": (3, 1)}, "amplitude must be a pair (low, high)"),
-        ({"samples": 1.5}, "samples must be a whole number"),
-    ],
-)
-def test_bad_input_for_chaos_is_refused_in_one_line(options, message):
-    with pytest.raises((TypeError, ValueError), match=re.escape(message)):
-        rk.chaos_share(system_with(restitution=0.5), **options)
-
-
-def test_bad_input_for_repeatability_is_refused_in_one_line():
-    with pytest.raises(ValueError, match=re.escape("relative must lie in [0, 0.5]; got 2")):
-        rk.repeatability(EDGE, relative=2)
-    with pytest.raises(TypeError, match="system must be a System; got 3"):
-        rk.repeatability(3)
-    with pytest.raises(ValueError, match=re.escape("samples must be a whole number in [2, 1000]; got 1")):
-        rk.repeatability_map(
-            rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.9),
-            amplitude=[1, 2],
-            period=[1, 2],
-            samples=1,
-        )
