@@ -12,58 +12,11 @@ def orbit():
     return rk.find_orbit(SYSTEM, rk.State(0.18, -0.1), 1)
 
 
-def test_a_guess_that_overturns_is_refused():
-    with pytest.raises(ValueError, match=r"^guess must not overturn within 2 cycles; got State"):
-        rk.find_orbit(SYSTEM, rk.State(3.0, 3.0), 1)
-
-
-@pytest.mark.parametrize("period", [0, -1, 1.5, 1001])
-def test_a_period_is_a_whole_number(period):
-    with pytest.raises(ValueError, match=r"^period must be a whole number in \[1, 1000\]; got"):
-        rk.find_orbit(SYSTEM, rk.State(0.1), period)
-    with pytest.raises(ValueError, match=r"^max_period must be a whole number in \[1, 64\]; got"):
-        rk.find_orbits(SYSTEM, period)
-
-
 def test_where_newton_ends_without_an_orbit_it_says_where():
     system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.5)
     with pytest.raises(rk.NoOrbit, match=r"^no orbit of period 1 was found from State") as caught:
         rk.find_orbit(system, rk.State(0.5), 1)
     assert caught.value.residual > 0.0
-
-
-def test_an_unknown_parameter_is_refused(orbit):
-    with pytest.raises(ValueError, match=r"^parameter must be one of 'amplitude', 'frequency', 'period', "):
-        rk.continue_orbit(orbit, "phase", (0, 1))
-
-
-def test_an_empty_range_is_refused(orbit):
-    with pytest.raises(
-        ValueError, match=r"^bounds must be \(lowest, highest\), the one below the other; got"
-    ):
-        rk.continue_orbit(orbit, "amplitude", (3, 1))
-
-
-def test_a_range_without_the_orbit_is_refused(orbit):
-    with pytest.raises(ValueError, match=r"^amplitude must lie in \[3, 4\] to be followed there; got 2.0"):
-        rk.continue_orbit(orbit, "amplitude", (3, 4))
-
-
-def test_a_range_beyond_what_a_system_may_have_is_refused(orbit):
-    with pytest.raises(ValueError, match=r"^bounds of restitution must lie in \[0.001, 1\]; got 1.2"):
-        rk.continue_orbit(orbit, "restitution", (0.5, 1.2))
-
-
-def test_braces_are_needed_to_follow_them(orbit):
-    with pytest.raises(ValueError, match=r"^brace_angle must be used with a braced system \(give it braces="):
-        rk.continue_orbit(orbit, "brace_angle", (0.5, 1))
-
-
-def test_a_response_that_is_not_periodic_has_no_orbit_to_follow():
-    resting = rk.classify(rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)).orbit
-    said = r"^orbit must be an Orbit; got None \(rk.classify returns one only if the response is periodic; "
-    with pytest.raises(TypeError, match=said):
-        rk.continue_orbit(resting, "amplitude", (1, 2))
 
 
 def test_a_saddle_without_impacts_is_not_followed():
@@ -100,21 +53,6 @@ def test_point_of_a_branch_is_named_by_its_index(orbit):
     for wrong in ("a", None, [0]):
         with pytest.raises(TypeError, match=allowed):
             branch.orbit(wrong)
-
-
-@pytest.mark.parametrize(
-    ("wrong", "error", "allowed"),
-    [
-        ("a", TypeError, r"be a real number in \[-1000, 1000\]; got 'a'"),
-        ([0.0], TypeError, r"be a real number in \[-1000, 1000\]; got \[0.0\]"),
-        (1e4, ValueError, r"lie in \[-1000, 1000\]; got 10000.0"),
-        (float("nan"), ValueError, r"lie in \[-1000, 1000\]; got nan"),
-    ],
-)
-def test_section_of_a_branch_is_at_a_phase(orbit, wrong, error, allowed):
-    branch = rk.continue_orbit(orbit, "amplitude", (1.5, 3), max_points=3)
-    with pytest.raises(error, match=f"^phase must {allowed}"):
-        branch.section(wrong)
 
 
 def test_orbits_are_looked_for_from_the_box_that_is_given():

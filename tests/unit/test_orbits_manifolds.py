@@ -216,10 +216,3 @@ def test_refusals_are_one_line(change, message):
     with pytest.raises((TypeError, ValueError), match=f"^{message}") as refused:
         rk.saddle_manifolds(**({"system": SYSTEM} | change))
     assert "\n" not in str(refused.value)
-
-
-def test_gap_and_tangency_refuse_what_has_none():
-    with pytest.raises(ValueError, match=r"^amplitude must be below √\(1 \+ Ω²\) = 6.36227; got 7.0"):
-        manifold_gap(rk.System(rk.Harmonic(7.0, period=1.0), 0.8))
-    with pytest.raises(ValueError, match="^restitution must be below 1; got 1.0 .without dissipation"):
-        rk.tangency_amplitude(rk.System(rk.Harmonic(1.0, period=1.0), 1.0))

@@ -413,11 +413,6 @@ def test_what_cannot_be_judged_is_refused_in_one_line(message):
         rk.classify(SYMMETRIC, **REFUSED[message])
 
 
-def test_other_than_a_system_is_refused_in_one_line():
-    with pytest.raises(TypeError, match="^system must be a System; got 3 "):
-        rk.classify(3)
-
-
 def test_failure_in_the_thread_is_raised_where_it_is_waited_for(monkeypatch):
     def fail(*_):
         raise MemoryError

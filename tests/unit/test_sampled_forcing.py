@@ -170,15 +170,6 @@ def test_what_needs_a_period_refuses_a_finite_base_motion_and_names_what_answers
     assert len(str(caught.value).splitlines()) == 1
 
 
-def test_cycles_and_sections_are_refused_for_a_finite_base_motion():
-    with pytest.raises(ValueError, match="^cycles must be omitted"):
-        rk.simulate(SYSTEM, cycles=3)
-    with pytest.raises(ValueError, match="^record must be 'all' or 'none'"):
-        rk.simulate(SYSTEM, record="section")
-    with pytest.raises(ValueError, match="^duration must be given for a base motion of finite length only"):
-        rk.simulate(rk.System(rk.Harmonic(2.0, period=1.0), restitution=0.9), duration=3.0)
-
-
 @pytest.mark.parametrize(("amplitude", "period", "restitution"), [(2.0, 1.0, 0.925), (4.0, 3.0, 0.8)])
 def test_a_sampled_cosine_converges_to_the_harmonic_base_at_second_order(amplitude, period, restitution):
     """Largest error of times and of speeds of the first impacts, before chaos amplifies it."""

@@ -63,16 +63,3 @@ def test_time_to_rest_at_the_ends_of_its_range():
     assert rk.theory.free_time_to_rest(0.0, 0.9) == 0.0
     assert rk.theory.free_time_to_rest(0.5, 0.0) == rk.theory.free_quarter_period(0.5)
     assert rk.theory.free_time_to_rest(0.5, 1.0) == rk.theory.free_time_to_rest(1.0, 0.5) == math.inf
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: rk.theory.free_quarter_period(1.2), r"^angle must lie in \[0, 1\]; got 1.2$"),
-        (lambda: rk.theory.free_peaks(0.5, 0.9, -1), r"^impacts must lie in \[0, 1e\+09\]; got -1$"),
-        (lambda: rk.theory.free_time_to_rest(0.5, 1 - 1e-9), r"^restitution must .*; got 0.999999999$"),
-    ],
-)
-def test_arguments_outside_their_range_are_refused_in_one_line(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()

@@ -182,22 +182,3 @@ def test_physical_energy_force_and_acceleration_are_equations_12_to_15_in_the_pa
     assert rk.theory.physical_critical_energy(BLOCK) == pytest.approx(
         square * critical**2 / 2, rel=1e-14, abs=0
     )
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: rk.theory.melnikov_function(0, -1, 1, 0.9), r"^amplitude must lie in \[0, 1000\]; got -1$"),
-        (
-            lambda: rk.theory.melnikov_function(0, 1, 1, 0.9, "both"),
-            "^orbit must be one of 'upper', 'lower'; got 'both'$",
-        ),
-        (lambda: rk.theory.melnikov_amplitude([1, 0], 0.9), r"^period must lie in .*; got 0.0$"),
-        (lambda: rk.theory.heteroclinic_amplitude(1, 1.5), r"^restitution must lie in \[0, 1\]; got 1.5$"),
-        (lambda: rk.theory.damping(0, 1, 0.9, 0.0), r"^width must lie in \[1e-12, 1\]; got 0.0$"),
-        (lambda: rk.theory.melnikov_integral(0, 1, 1, 2.0), r"^restitution must lie in \[0, 1\]; got 2.0$"),
-    ],
-)
-def test_arguments_outside_their_range_are_refused_in_one_line(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()

@@ -293,54 +293,6 @@ def test_mode_says_what_it_is_in_one_line():
     assert str(slow).endswith("unstable, admissible")
 
 
-EVEN = "no mode with even n is symmetric: half a response later the forcing is unchanged, not reversed"
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ((2.0, 1.0, 0.9, 2), rf"^n must be an odd whole number in \[1, 9999\]; got 2 \({EVEN}\)$"),
-        ((2.0, 1.0, 0.9, 0), r"^n must be a whole number in \[1, 9999\]; got 0$"),
-        ((2.0, 1.0, 0.9, 1.5), r"^n must be a whole number in \[1, 9999\]; got 1.5$"),
-        (
-            (2.0, 1.0, 0.0, 1),
-            r"^restitution must lie in \(0, 1\] for symmetric modes; got 0.0 \(an impact that stops the block leaves no mode\)$",
-        ),
-        ((2.0, 1.0, 1.1, 1), r"^restitution must lie in \[0, 1\]; got 1.1$"),
-        ((-2.0, 1.0, 0.9, 1), r"^amplitude must lie in \[0, 1000\]; got -2.0$"),
-        ((2.0, 0.0, 0.9, 1), r"^period must lie in \[0.00628319, 6283.19\]; got 0.0$"),
-        ((2.0, math.nan, 0.9, 1), r"^period must lie in \[0.00628319, 6283.19\]; got nan$"),
-    ],
-)
-def test_modes_refuse_in_one_line(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        rk.theory.symmetric_modes(*arguments)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ((1.0, 0.9, 4), rf"^n must be an odd whole number in \[1, 9999\]; got 4 \({EVEN}\)$"),
-        ((1.0, 0.9, [1, 3, 2.5]), r"^n must be an odd whole number in \[1, 9999\]; got 2.5$"),
-        (([1.0, -1.0], 0.9, 1), r"^period must lie in \[0.00628319, 6283.19\]; got -1.0$"),
-        ((1.0, [0.5, math.nan], 1), r"^restitution must lie in \[0, 1\]; got nan$"),
-    ],
-)
-@pytest.mark.parametrize("name", ["existence_amplitude", "symmetry_breaking_amplitude"])
-def test_amplitudes_refuse_in_one_line(name, arguments, message):
-    with pytest.raises(ValueError, match=message):
-        getattr(rk.theory, name)(*arguments)
-
-
-def test_what_is_no_number_is_refused_as_such():
-    with pytest.raises(
-        TypeError, match="^period must be a real number or an array of real numbers; got 'one'$"
-    ):
-        rk.theory.existence_amplitude("one", 0.9, 1)
-    with pytest.raises(TypeError, match="^restitution must be a real number in"):
-        rk.theory.symmetric_modes(2.0, 1.0, None, 1)
-
-
 @pytest.mark.parametrize("e", [1e-3, 1e-100, 1e-156, 1e-300])
 def test_however_little_is_kept_the_modes_of_twice_the_fold_are_there(e):
     """As e goes to 0 speeds shrink like e, and phase and trace tend to limits."""
