@@ -5,7 +5,6 @@ import pytest
 
 import rocking as rk
 
-FORCING = rk.Harmonic(amplitude=15.0, period=1.0)
 RANGE = (10.0, 30.0)
 
 

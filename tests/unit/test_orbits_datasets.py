@@ -5,50 +5,15 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from made_results import made
 from rocking.model.system import quantities
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
 
 
 @pytest.fixture(scope="module")
-def branch():
-    return rk.continue_orbit(rk.classify(SYSTEM).orbit, "amplitude", (10, 30), step=0.05)
-
-
-@pytest.fixture(scope="module")
-def curve(branch):
-    return rk.bifurcation_curve(branch.special[0], "period", "amplitude", ((1, 1.2), (1, 30)), step=0.05)
-
-
-@pytest.fixture(scope="module")
 def orbits():
     return rk.find_orbits(rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925), 3)
-
-
-@pytest.fixture(scope="module")
-def cascade():
-    system = rk.System(rk.Harmonic(amplitude=10.46, period=1.721328), restitution=0.8)
-    doubling = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10.3, 10.9)).special[0]
-    return rk.cascade(doubling, (10.3, 10.9), doublings=4)
-
-
-@pytest.fixture(scope="module")
-def transition():
-    system = rk.System(rk.Harmonic(4.0, period=1.0), 0.8, rk.Braces(0.3, 0.7))
-    branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (0.5, 15.0))
-    return rk.grazing_transition(branch.special[-1])
-
-
-@pytest.fixture(scope="module")
-def manifolds():
-    """Manifolds of an orbit of period 3, whose halves begin at three points."""
-    system = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), 0.925)
-    saddle = next(
-        orbit
-        for orbit in rk.find_orbits(system, 3)
-        if orbit.period == 3 and orbit.impacts and orbit.stability == "unstable"
-    )
-    return rk.orbit_manifolds(saddle, length=0.5)
 
 
 def through_file(data, tmp_path):
@@ -62,7 +27,9 @@ def multipliers_of(data):
     return np.stack(list(parts), axis=-1)
 
 
-def test_every_dataset_states_the_quantities_that_do_not_vary(branch, curve, orbits):
+def test_every_dataset_states_the_quantities_that_do_not_vary(orbits):
+    branch = made("branch")
+    curve = made("curve")
     fixed = {"restitution": 0.9, "phase": 0.0}
     along_branch, along_curve = branch.to_xarray().attrs, curve.to_xarray().attrs
     assert (fixed | {"period": 1.0}).items() <= along_branch.items()
@@ -72,7 +39,8 @@ def test_every_dataset_states_the_quantities_that_do_not_vary(branch, curve, orb
     assert quantities(orbits.system).items() <= orbits.to_xarray().attrs.items()
 
 
-def test_branch_comes_back_with_its_special_points(branch, tmp_path):
+def test_branch_comes_back_with_its_special_points(tmp_path):
+    branch = made("branch")
     data = through_file(branch.to_xarray(), tmp_path)
     assert data.attrs["parameter"] == "amplitude"
     assert data["end_reason"].values.tolist() == list(branch.ends)
@@ -103,7 +71,8 @@ def test_branch_over_the_slenderness_of_a_full_block_has_radians():
     assert branch.to_xarray()["critical_angle"].attrs["units"] == "rad"
 
 
-def test_curve_comes_back(curve, tmp_path):
+def test_curve_comes_back(tmp_path):
+    curve = made("curve")
     data = through_file(curve.to_xarray(), tmp_path)
     for name, values in zip(curve.names, curve.points.T, strict=True):
         np.testing.assert_array_equal(data[name], values)
@@ -131,7 +100,8 @@ def test_exponents_come_back_with_their_history(amplitude, period, restitution, 
         np.testing.assert_array_equal(data["running_exponent"], spectrum.history["values"])
 
 
-def test_cascade_comes_back_with_its_orbits(cascade, tmp_path):
+def test_cascade_comes_back_with_its_orbits(tmp_path):
+    cascade = made("cascade")
     data = through_file(cascade.to_xarray(), tmp_path)
     np.testing.assert_array_equal(data["amplitude"], cascade.values)
     np.testing.assert_array_equal(data["orbit_period"], [1, 2, 4, 8])
@@ -151,7 +121,8 @@ def test_cascade_comes_back_with_its_orbits(cascade, tmp_path):
         assert tuple(multipliers_of(here)) == orbit.multipliers
 
 
-def test_manifolds_come_back_half_by_half(manifolds, tmp_path):
+def test_manifolds_come_back_half_by_half(tmp_path):
+    manifolds = made("orbit manifolds")
     data = through_file(manifolds.to_xarray(), tmp_path)
     halves = (*manifolds.unstable, *manifolds.stable)
     assert data.sizes["curve"] == len(halves) == 12
