@@ -1,6 +1,7 @@
 """Response diagrams against single verdicts, closed forms, and turns of the motion about the origin."""
 
 import math
+import time
 from dataclasses import dataclass
 from pkgutil import resolve_name as resolve
 
@@ -273,6 +274,7 @@ def test_no_value_begins_after_an_interruption(place, monkeypatch):
         begun.append(given)
         if len(begun) == 20:
             raise KeyboardInterrupt
+        time.sleep(0.002)  # a value takes longer than to learn of the interruption
         return real(*given)
 
     monkeypatch.setattr(f"rocking.orbits.{place}", counting)
