@@ -3,6 +3,7 @@
 import pytest
 
 import rocking as rk
+import stored_surveys
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 
@@ -62,6 +63,17 @@ def test_orbits_are_looked_for_from_the_box_that_is_given():
         ValueError, match=r"^velocities must be \(lowest, highest\), the one below the other; got"
     ):
         rk.find_orbits(SYSTEM, 1, velocities=(0.3, -0.3))
+
+
+@pytest.mark.parametrize("effort", [0.02, 0.1])
+def test_search_with_another_effort_is_refused_and_leaves_the_store_as_it_was(tmp_path, effort):
+    store = tmp_path / "orbits"
+    orbits = rk.find_orbits(SYSTEM, 1, effort=0.05, store=store).to_xarray()
+    before = stored_surveys.files(store)
+    with pytest.raises(ValueError, match=f"holds a different survey: effort is 0.05 there and {effort} here"):
+        rk.find_orbits(SYSTEM, 1, effort=effort, store=store)
+    assert stored_surveys.files(store) == before
+    assert rk.find_orbits(SYSTEM, 1, effort=0.05, store=store).to_xarray().identical(orbits)
 
 
 def test_nothing_is_born_at_a_fold(orbit):

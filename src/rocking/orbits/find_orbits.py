@@ -151,6 +151,7 @@ class SearchSpec(SurveySpec):
     system: System = field(kw_only=True)
     max_period: int = field(kw_only=True)
     box: tuple[float, ...] | None = field(kw_only=True)
+    effort: float = field(kw_only=True)
     seed: int = field(kw_only=True)
 
     @property
@@ -171,7 +172,8 @@ class SearchSpec(SurveySpec):
     def described(self) -> dict[str, Any]:
         """Return the quantities of the system, and what determines the guesses."""
         ends = {} if self.box is None else {"guessed_range": list(self.box)}
-        return identity_of(self.system) | {"max_period": self.max_period, "seed": self.seed} | ends
+        search = {"max_period": self.max_period, "effort": self.effort, "seed": self.seed}
+        return identity_of(self.system) | search | ends
 
 
 def fixed_points_at(
@@ -426,7 +428,7 @@ def find_orbits(
         count = max(round(effort * FIRST_ROUND * 2 ** max(number - 1, 0)), 1)
         before = len(known.orbits)
         axes = {"map": np.arange(float(len(maps))), "guess": np.arange(float(used), float(used + count))}
-        spec = SearchSpec(axes, system=there, max_period=max_period, box=box, seed=seed)
+        spec = SearchSpec(axes, system=there, max_period=max_period, box=box, effort=effort, seed=seed)
         place = round_in(store, number)
         found = run_survey(spec, FIXED_POINTS, place, executor, progress=progress, repair=repair).load()
         for row, (period, _) in enumerate(maps):
