@@ -161,7 +161,10 @@ def test_findings_follow_from_the_verdicts(folder, tmp_path):
 
 def test_main_claims_stand_on_the_first_page_with_their_verdicts(folder):
     found = part(read(folder / "index.html"), "The main claims, by verdict:", "</ul>")
-    assert found == "Eq. (1): One is one.confirmed Eq. (3): Three is one.error in the paper: three is three"
+    assert found == (
+        "Eq. (1) (Numbers, (1) to (3)): One is one.confirmed "
+        "Eq. (3) (Numbers, (1) to (3)): Three is one.error in the paper: three is three"
+    )
 
 
 @pytest.mark.parametrize("standing", Standing)

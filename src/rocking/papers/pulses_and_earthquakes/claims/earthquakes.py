@@ -135,7 +135,7 @@ FURTHER = PULSES_AND_EARTHQUAKES.chapter("Further results of this report")
 
 @FURTHER.claim("Overturning scales", main=True)
 def not_an_interval() -> Finding:
-    """A scale factor above one that overturns a block need not overturn it: no record has one overturning acceleration."""
+    """A block that overturns at one scale may stand at a larger one: these motions have no single overturning acceleration."""
     rows = [surveys.fallen(surveys.scales()), *surveys.fallen(surveys.synthetic_scales())]
     counts = [surveys.switches(row) for row in rows]
     return Finding(
