@@ -173,6 +173,13 @@ def test_first_block_keeps_the_motion_and_another_one_the_values_in_si():
     assert normalised.shown == normalised.fields
 
 
+@pytest.mark.parametrize("name", ["height", "width"])
+def test_emptied_side_of_a_block_is_asked_for_and_does_not_change_the_units(name):
+    with pytest.raises(Refused) as refusal:
+        in_si().changed({name: " "})
+    assert refusal.value.fields == {name: f"give the {name}"}
+
+
 def test_acceleration_may_be_given_in_g():
     assert float(without_g("0.3 g")) == float(without_g(".3g ")) == 0.3 * 9.80665
     for text in ("3", "x g", "g", "1 gal", ""):

@@ -10,6 +10,7 @@ from attrs import asdict, evolve, frozen
 
 from rocking.explorer.fields import (
     Field,
+    Missing,
     Refused,
     Span,
     View,
@@ -204,7 +205,7 @@ class HarmonicView(View):
         """Return the view with new values of some fields, in the units of the page.
 
         A first block keeps the normalised system. Another block has Housner's coefficient of restitution, and the values in SI
-        are kept.
+        are kept. Without both sides, the view is normalised; a block that loses only one of them is refused.
 
         Parameters
         ----------
@@ -222,6 +223,9 @@ class HarmonicView(View):
             raise Refused(refused)
         view = evolve(self, **read)
         block = view.block
+        if self.block is not None and len(sides) == 1 and block is None:
+            (name,) = sides
+            raise self.refused(Missing(name, ""))
         if block is not None and block != self.block:
             angle = None if self.critical_angle is None else block.critical_angle
             view = evolve(view, critical_angle=angle)
