@@ -292,6 +292,18 @@ def test_map_is_saved_alike_in_both_formats(ground, tmp_path):
     visitor.is_content()
 
 
+def test_columns_of_saved_figures_have_units(ground, tmp_path):
+    visitor = ground()
+    visitor.page.click("[data-opens=take]")
+    for name, columns in (("history", "time [s],angle [°]"), ("base", "time [s],acceleration [g]")):
+        visitor.page.select_option("#which", name)
+        with visitor.page.expect_download() as download:
+            visitor.page.click("[data-save=csv]")
+        download.value.save_as(tmp_path / name)
+        assert (tmp_path / name).read_text().splitlines()[0] == columns
+    visitor.is_content()
+
+
 def test_page_answers_only_on_this_machine(running):
     request = urllib.request.Request(
         running.address + "ground-motion", headers=running.cookie | {"Host": "evil.com"}

@@ -164,9 +164,11 @@ function scene() {
 
 // ---- export
 
-// Columns of a figure; undefined if it is not computed yet.
+const headings = { time: "time [s]", angle: "angle [°]", acceleration: "acceleration [g]" };
+
+// Columns of a figure with their headings; undefined if it is not computed yet.
 function table(name) {
-  if (name !== "map") return columns(name);
+  if (name !== "map") return Object.fromEntries(Object.entries(columns(name)).map(([column, values]) => [headings[column], values]));
   if (!answers.map) return;
   const side = Math.round(Math.sqrt(answers.map.outcome.length)), points = Array.from(answers.map.outcome, (_, at) => block(at, side));
   const names = { size_m: "size", critical_angle_deg: "angle", height_m: "height", width_m: "width", outcome: "outcome", peak: "peak", margin: "margin", certified: "certified" };
