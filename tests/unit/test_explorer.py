@@ -240,6 +240,8 @@ def test_figures_and_tables_of_a_block_are_in_si():
     assert [plain.units.label(name) for name in ("time", "angle", "velocity", "amplitude", "period")] == [
         "time τ", "angle Θ", "velocity Θ′", "amplitude A", "period T",
     ]  # fmt: skip
+    assert units.factor("exponent") == pytest.approx(1 / block.seconds(1.0))
+    assert plain.units.factor("exponent") == 1.0
     assert units.headings("amplitude")["value"] == "value [m/s²]"
     assert plain.units.headings("amplitude") == {}
 

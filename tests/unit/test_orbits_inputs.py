@@ -76,6 +76,22 @@ def test_search_with_another_effort_is_refused_and_leaves_the_store_as_it_was(tm
     assert rk.find_orbits(SYSTEM, 1, effort=0.05, store=store).to_xarray().identical(orbits)
 
 
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"seed": 1}, "seed is 0 there and 1 here"),
+        ({"max_period": 2}, "max_period is 1 there and 2 here"),
+        ({"angles": (-0.5, 0.5)}, "guessed_range is not given there"),
+        ({"system": rk.System(SYSTEM.periodic, restitution=0.9)}, "restitution is 0.925 there and 0.9 here"),
+    ],
+)
+def test_search_that_differs_does_not_take_the_guesses_of_a_store(tmp_path, changed, said):
+    search = {"system": SYSTEM, "max_period": 1, "effort": 0.05, "store": tmp_path / "orbits"}
+    rk.find_orbits(**search)
+    with pytest.raises(ValueError, match=f"holds a different survey: {said}"):
+        rk.find_orbits(**search | changed)
+
+
 def test_nothing_is_born_at_a_fold(orbit):
     branch = rk.continue_orbit(orbit, "amplitude", (0.01, 3))
     fold = next(point for point in branch.special if point.kind == "fold")

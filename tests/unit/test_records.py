@@ -563,6 +563,11 @@ def test_the_unit_given_beats_one_that_prose_mentions(make):
         assert rk.read_ground_motion(path, units="m/s²").pga == 2.0
 
 
+def test_the_unit_that_a_header_states_beats_one_that_prose_mentions(make):
+    path = make(["at most 50 cm/s^2", "time, acceleration (g)", "0, 1", "0.5, 2"])
+    assert rk.read_ground_motion(path).pga == pytest.approx(2 * 9.80665)
+
+
 @pytest.mark.parametrize("third", ["ACCELERATION TIME SERIES (CM/S/S)", "ACCELERATION TIME SERIES IN CM/S/S"])
 def test_peer_file_states_its_unit_in_other_words_too(make, third):
     lines = write.peer(WAVE)

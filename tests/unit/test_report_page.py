@@ -167,6 +167,12 @@ def test_main_claims_stand_on_the_first_page_with_their_verdicts(folder):
     )
 
 
+def test_table_in_markdown_keeps_its_columns_where_a_text_has_a_bar(tmp_path):
+    comma, bars = page.write_table(tmp_path, "sides", ["side", "angle"], [["left", "|Θ| < 1e-07"]])
+    assert read(comma).splitlines()[1] == "left,|Θ| < 1e-07"
+    assert read(bars).splitlines()[2] == r"| left | \|Θ\| < 10⁻⁷ |"
+
+
 @pytest.mark.parametrize("standing", Standing)
 def test_each_verdict_has_a_sentence_for_one_claim_and_for_several(standing):
     one, several = page.PREDICATES[standing]

@@ -336,3 +336,14 @@ def test_braces_that_a_varied_angle_adds_are_among_the_constant_parameters():
     assert responses == {diagram.fixed["brace_restitution"]}
     assert diagram.to_xarray().attrs["brace_restitution"] == diagram.fixed["brace_restitution"]
     assert "brace_angle" not in diagram.fixed
+
+
+@pytest.mark.parametrize("start", [rk.State(0.3), rk.State(0.0, 0.3)])
+def test_diagram_from_another_initial_state_does_not_take_the_verdicts_of_a_store(tmp_path, start):
+    system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.9)
+    diagram = {"system": system, "amplitude": [0.5, 1.5], "store": tmp_path / "diagram"}
+    rk.response_diagram(**diagram)
+    with pytest.raises(
+        ValueError, match=r"holds a different survey: (angle|velocity) is 0 there and 0.3 here"
+    ):
+        rk.response_diagram(**diagram, start=start)
