@@ -477,3 +477,18 @@ def test_motion_with_too_many_events_is_not_shown_as_the_one_before(workers, mon
     assert (told["kind"], told["margin"], told["facts"]) == ("not computed", "More than 3 events.", [])
     assert link.drawn["history"]["line"]["angle"].size == 0
     assert link.drawn["base"]["line"]["acceleration"].size > 0
+
+
+@pytest.mark.parametrize(
+    "before, typed, scale",
+    [
+        (DEFAULT, {"source": "pulse"}, 1.0),
+        (DEFAULT, {"source": "pulse", "scale": "3"}, 3.0),
+        (DEFAULT, {"height": "3"}, 5.0),
+        (attrs.evolve(DEFAULT, source="pulse", scale=2.0), {"amplitude": "0.4"}, 2.0),
+        (attrs.evolve(DEFAULT, source="pulse", scale=2.0), {"source": "example"}, 5.0),
+    ],
+)
+def test_another_base_motion_begins_as_it_is(before, typed, scale):
+    """Only the example, whose shaking is weak, begins with a factor."""
+    assert before.changed(typed).scale == scale

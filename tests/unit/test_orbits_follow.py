@@ -82,7 +82,7 @@ def test_a_branch_ends_at_an_obstacle_that_does_not_open():
     assert half.points[-1].value < 0.7
 
 
-@pytest.mark.parametrize("most", [1, 2, 3])
+@pytest.mark.parametrize("most", range(1, 12))
 def test_a_branch_has_at_most_the_points_wanted(most):
     half = follow(line(opens=True), Place(0.0), most)
     assert len(half.points) == most

@@ -81,7 +81,7 @@ def test_search_with_another_effort_is_refused_and_leaves_the_store_as_it_was(tm
     [
         ({"seed": 1}, "seed is 0 there and 1 here"),
         ({"max_period": 2}, "max_period is 1 there and 2 here"),
-        ({"angles": (-0.5, 0.5)}, "guessed_range is not given there"),
+        ({"angles": (-0.5, 0.5)}, "angles is not given there"),
         ({"system": rk.System(SYSTEM.periodic, restitution=0.9)}, "restitution is 0.925 there and 0.9 here"),
     ],
 )

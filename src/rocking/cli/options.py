@@ -85,6 +85,7 @@ WORDS = {
     "these tiles with repair": "these tiles with --repair",
     "with store, running it": "with --store, running it",
     "give store, a folder": "give --store, a folder",
+    "store must be": "--store must be",
 }
 """Words of the package that are not those of the command line."""
 

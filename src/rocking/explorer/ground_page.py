@@ -98,7 +98,8 @@ class GroundSession(Session):
         except ValueError as error:
             self.link.refuse(file=str(error))
             return
-        self._start_reading(attrs.evolve(self.view, source="file", units="", step=None, channel=1))
+        new = attrs.evolve(self.view, source="file", units="", step=None, channel=1)
+        self._start_reading(new.begun_from(self.view))
 
     def _start_reading(self, new: GroundView) -> None:
         self.pending = new

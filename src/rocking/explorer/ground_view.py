@@ -8,7 +8,7 @@ from functools import cached_property, lru_cache
 from typing import Any, ClassVar
 
 import numpy as np
-from attrs import define, field, frozen
+from attrs import define, evolve, field, frozen
 
 from rocking.explorer.fields import Span, View, axis, count, entry, number, optional, word, written
 from rocking.explorer.ground_maps import POINTS
@@ -114,6 +114,17 @@ class GroundView(View):
             "file": (self.reading, self.units, self.step, self.channel),
         }
         return (self.source, *chosen.get(self.source, ()))
+
+    def changed(self, typed: Mapping[str, str]) -> GroundView:
+        """Return the view with new values of some fields; another base motion is not scaled, but for that of the first view."""
+        view = super().changed(typed)
+        return view if "scale" in typed else view.begun_from(self)
+
+    def begun_from(self, before: GroundView) -> GroundView:
+        """Return the view with the factor that another base motion begins with."""
+        if self.source == before.source:
+            return self
+        return evolve(self, scale=DEFAULT.scale if self.source == DEFAULT.source else 1.0)
 
     def checked(self) -> GroundView:
         """Return the view; raise Refused if its block has no restitution of Housner."""

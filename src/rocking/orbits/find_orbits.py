@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, overload
 import numpy as np
 from attrs import evolve, field, frozen
 
+from rocking.kernels import batch
 from rocking.kernels.classify import attractor_anchor
 from rocking.model.orbit import Orbit, Stability, orbit_columns
 from rocking.model.result import Result, along, described
@@ -171,7 +172,7 @@ class SearchSpec(SurveySpec):
 
     def described(self) -> dict[str, Any]:
         """Return the quantities of the system, and what determines the guesses."""
-        ends = {} if self.box is None else {"guessed_range": list(self.box)}
+        ends = {} if self.box is None else {"angles": list(self.box[:2]), "velocities": list(self.box[2:])}
         search = {"max_period": self.max_period, "effort": self.effort, "seed": self.seed}
         return identity_of(self.system) | search | ends
 
@@ -215,7 +216,7 @@ FIXED_POINTS = Measurement(
         ),
     ),
     {},
-    1,
+    batch.METHOD,
     shares="found",
     batch=1024,
 )

@@ -144,8 +144,13 @@ def follow(problem: Problem[Point], first: Point, most: int) -> HalfBranch[Point
             continue
         else:
             passage = problem.obstacle(here, length, there)
-        specials += [(kind, point, len(points) + place) for kind, point, place in passage.specials]
-        points += passage.points
+        room = most - len(points)
+        specials += [
+            (kind, point, len(points) + place) for kind, point, place in passage.specials if place < room
+        ]
+        points += passage.points[:room]
+        if len(passage.points) > room:
+            break
         if passage.end is not None:
             return HalfBranch(points, specials, passage.end)
         end = problem.end(points)
