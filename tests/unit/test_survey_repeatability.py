@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from rocking.model.system import quantities as system_quantities
 from rocking.survey.random_points import perturbed as inputs_off
 from rocking.survey.random_points import spread
 from rocking.survey.spec import SYSTEM, by_period, points
@@ -36,6 +37,20 @@ def test_each_run_is_what_classify_says_of_the_disturbed_system():
     assert {kind: share.count for kind, share in found.kinds.items()} == dict(kinds)
     assert len(kinds) > 1
     assert sum(share.count for share in found.responses.values()) == 80
+
+
+def test_disturbed_points_are_the_systems_with_the_disturbed_quantities():
+    """The kinds of responses alone would not always show a frequency that does not belong to its period."""
+    start, units = rk.State(0.05, -0.1), np.random.default_rng(6).uniform(-1, 1, (40, 5))
+    quantities = by_period(EDGE) | {"angle": start.angle, "velocity": start.velocity}
+    meant = points({name: np.full(40, value) for name, value in quantities.items()}, {})
+    systems, starts = inputs_off(meant, units, 0.02)
+    for row, begun, unit in zip(systems, starts, units, strict=True):
+        system, state = disturbed(EDGE, start, unit, 0.02)
+        found = dict(zip(SYSTEM, row.tolist(), strict=True))
+        for name, value in system_quantities(system).items():
+            assert found[name] == pytest.approx(value, rel=1e-14)
+        assert begun.tolist() == pytest.approx([state.angle, state.velocity], rel=1e-14)
 
 
 def test_what_is_undetermined_is_no_outcome_and_widens_all_others():
