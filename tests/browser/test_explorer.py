@@ -449,8 +449,8 @@ PAGES = {
             "margin",
             "certified",
         ],
-        "history": ["time", "angle"],
-        "base": ["time", "acceleration"],
+        "history": ["time [s]", "angle [°]"],
+        "base": ["time [s]", "acceleration [g]"],
     },
 }
 """Columns of the table of each figure, by the addresses of the pages."""

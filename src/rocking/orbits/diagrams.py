@@ -535,6 +535,8 @@ def response_diagram(
         If an argument is of the wrong type, or the base motion is not periodic.
     ValueError
         If an argument, or one of the values, lies outside its range.
+    ImportError, OSError
+        As in `parametric_map`, with a store.
 
     See Also
     --------

@@ -392,6 +392,8 @@ def find_orbits(
         If an argument is of the wrong type.
     ValueError
         If an argument lies outside its range.
+    ImportError, OSError
+        As in `parametric_map`, with a store.
 
     See Also
     --------

@@ -281,6 +281,8 @@ def frequency_response(
         If an argument is of the wrong type, or if not exactly one of `period` and `frequency` is given.
     ValueError
         If an argument lies outside its range, or if a number in `modes` is even.
+    ImportError, OSError
+        As in `parametric_map`, with a store.
 
     See Also
     --------

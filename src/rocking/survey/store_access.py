@@ -28,12 +28,7 @@ def check_store(path: str | os.PathLike[str]) -> Path:
 
     A store may lie where nothing can be written: it can be read.
     """
-    if not isinstance(path, str | os.PathLike) or not os.fspath(path):
-        raise WrongType("store", "be the path of a folder", path)
-    folder = Path(path)
-    place = resolve_path("store", folder)
-    if place.exists() and not place.is_dir():
-        raise StoreError(f"store must be the path of a folder; got {formatted_path(path)}, which is a file")
+    place, folder = _place(path), Path(path)
     if not (place / ROOT).is_file():
         check_folder("store", folder)
     names = {each.name for each in place.iterdir()} if place.exists() else set()
@@ -43,15 +38,26 @@ def check_store(path: str | os.PathLike[str]) -> Path:
     return folder
 
 
+def _place(path: str | os.PathLike[str]) -> Path:
+    """Return the place of a store, a folder or nothing yet; TypeError or OSError for anything else."""
+    if not isinstance(path, str | os.PathLike) or not os.fspath(path):
+        raise WrongType("store", "be the path of a folder", path)
+    place = resolve_path("store", Path(path))
+    if place.exists() and not place.is_dir():
+        raise StoreError(f"store must be the path of a folder; got {formatted_path(path)}, which is a file")
+    return place
+
+
 def check_folder_of_stores(path: str | os.PathLike[str], names: re.Pattern[str]) -> Path:
     """Return the path of a folder that holds only stores with given names; StoreError if it is neither this nor a new or empty folder."""
-    if isinstance(path, str | os.PathLike) and os.fspath(path) and Path(path).is_dir():
-        others = sorted(each.name for each in Path(path).iterdir() if not names.fullmatch(each.name))
-        if not others:
-            return Path(path)
+    place = _place(path)
+    if not place.exists():
+        return check_store(path)
+    others = sorted(each.name for each in place.iterdir() if not names.fullmatch(each.name))
+    if others:
         what = "the store of another survey" if ROOT in others else f"a folder that contains {others[0]!r}"
         raise StoreError(something_else(Path(path), what))
-    return check_store(path)
+    return Path(path)
 
 
 def something_else(folder: Path, what: str) -> str:
