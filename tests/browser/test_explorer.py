@@ -698,6 +698,7 @@ def test_first_screen_of_a_phone_has_the_verdict_in_words_and_the_moving_block(v
 def test_moving_block_is_as_large_as_the_map_and_beside_it(visit, page):
     visitor = visit()
     visitor.open(page)
+    visitor.finished()  # the legend is complete, and with it the height of the row
     places = visitor.page.evaluate(PLACES)
     assert (
         places["fields"]["right"] <= places["map"]["left"] < places["map"]["right"] <= places["scene"]["left"]

@@ -70,7 +70,7 @@ def reworded(text: str) -> str:
     """Return a text of the package in the words of the command line."""
     for python, typed in WORDS.items():
         text = text.replace(python, typed)
-    return text
+    return f"--{text}" if text.startswith("store must be") else text
 
 
 WORDS = {
@@ -85,7 +85,6 @@ WORDS = {
     "these tiles with repair": "these tiles with --repair",
     "with store, running it": "with --store, running it",
     "give store, a folder": "give --store, a folder",
-    "store must be": "--store must be",
 }
 """Words of the package that are not those of the command line."""
 
