@@ -119,6 +119,7 @@ EVERY = {
     ),
 }
 """Every function with a store: itself and its arguments, those of more than one tile."""
+ALL = EVERY | {f"large {name}": (each.function, each.given) for name, each in SURVEYS.items()}
 
 
 def files(folder):

@@ -19,7 +19,7 @@ import xarray as xr
 
 from rocking.survey.run_survey import Pending, _settle
 from rocking.survey.store_access import defer_interrupt
-from stored_surveys import EVERY, SURVEYS, chunks, files
+from stored_surveys import ALL, SURVEYS, chunks, files
 
 # No thread begins here: then every run may be a fork of this process.
 BEGIN = f"""
@@ -31,29 +31,13 @@ from stored_surveys import SURVEYS
 
 survey, folder = SURVEYS[sys.argv[1]], sys.argv[2]
 """
-KILLED = (
-    BEGIN
-    + """
-moment, killed = random.Random(1991), 0
-while killed < 10:
-    child = os.fork()
-    if child == 0:
-        survey.run(folder)
-        os._exit(0)
-    time.sleep(moment.uniform(0.03, 0.25))
-    os.kill(child, signal.SIGKILL)
-    _, status = os.waitpid(child, 0)
-    killed += 1
-    print(os.WIFSIGNALED(status), flush=True)
-"""
-)
-EACH_KILLED = f"""
+KILLED = f"""
 import os, random, shutil, signal, sys, time
 
 sys.path.insert(0, {str(Path(__file__).parents[1])!r})
-from stored_surveys import EVERY
+from stored_surveys import ALL
 
-(survey, arguments), folder, takes = EVERY[sys.argv[1]], sys.argv[2], float(sys.argv[3])
+(survey, arguments), folder, takes = ALL[sys.argv[1]], sys.argv[2], float(sys.argv[3])
 moment, killed = random.Random(1991), 0
 while killed < 5:
     child = os.fork()
@@ -111,23 +95,12 @@ def whole(name, tmp_path_factory):
 
 
 @pytest.mark.long
-def test_survey_killed_ten_times_is_that_of_an_undisturbed_run_byte_for_byte(name, tmp_path, whole):
-    folder = tmp_path / "survey.zarr"
-    done = ran(KILLED, name, folder)
-    assert (done.stderr, done.returncode) == ("", 0)
-    # a run that was quicker than its death would show nothing
-    assert done.stdout.split().count("True") >= 5
-    SURVEYS[name].run(folder)
-    assert files(folder) == files(whole)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("each", EVERY)
+@pytest.mark.parametrize("each", ALL)
 def test_every_survey_killed_five_times_gives_the_result_and_the_bytes_of_an_undisturbed_run(each, tmp_path):
-    survey, arguments = EVERY[each]
+    survey, arguments = ALL[each]
     begun = time.perf_counter()
     undisturbed = survey(**arguments, store=tmp_path / "undisturbed").to_xarray().load()
-    done = ran(EACH_KILLED, each, tmp_path / "killed", str(0.8 * (time.perf_counter() - begun)))
+    done = ran(KILLED, each, tmp_path / "killed", str(0.8 * (time.perf_counter() - begun)))
     assert (done.stdout, done.stderr) == ("5\n", "")
     assert survey(**arguments, store=tmp_path / "killed").to_xarray().load().identical(undisturbed)
     assert files(tmp_path / "killed") == files(tmp_path / "undisturbed")
