@@ -447,7 +447,9 @@ def test_squat_block_with_a_restitution_is_mapped_in_its_units(rocking):
         "map --height 0.6 --width 1.8 --acceleration 1:8:2 --frequency-hz 1:3:2 --max-cycles 5 --plot map.png"
     )
     for restitution in ("0.5", "0.5:0.6:2 --frequency-hz 1"):
-        printed(rocking, f"{line} --restitution {restitution}")
+        Path("map.png").unlink(missing_ok=True)
+        assert "θcr = 1.25 rad = 71.6°" in printed(rocking, f"{line} --restitution {restitution}")
+        assert Path("map.png").stat().st_size > 0
 
 
 def test_store_and_tiles_are_those_of_the_map_in_its_units(rocking):
