@@ -18,9 +18,8 @@ from scipy.integrate import solve_ivp
 import rocking as rk
 from benchmarks.clock import quickest_in_turn
 from benchmarks.table import Figure
-from rocking.kernels.march import initial_state
-from rocking.kernels.march import march as kernel
-from rocking.kernels.march.progress import Recording
+from rocking.kernels.motion import march
+from rocking.kernels.motion.march import Recording
 from rocking.motion.march_loop import parameters
 from tests.oracles.full_block import DIGITS, Block, Cosine, Samples
 
@@ -108,10 +107,10 @@ def engine(case, cycles):
     """Return a function that marches the block to the end, and gives the state there; runs replace cycles under a ground motion."""
     length, marched = (None, cycles) if is_periodic(case) else (case.until, 1)
     p = parameters(case.system, length)
-    begun, _ = initial_state.begin_march(p, case.start.angle, case.start.velocity)
+    begun, _ = march.begin_march(p, case.start.angle, case.start.velocity)
 
     def run():
-        arc = kernel.march(p, begun, marched, Recording())[1].arc
+        arc = march.march(p, begun, marched, Recording())[1].arc
         return arc.side * arc.angle, arc.side * arc.velocity
 
     return repeated(run, cycles // marched)

@@ -9,9 +9,9 @@ from benchmarks import marching
 from benchmarks.clock import quickest
 from benchmarks.table import Figure
 from rocking.kernels import batch
-from rocking.kernels.classify.results import empty_results
-from rocking.kernels.classify.workspace import make_workspace
-from rocking.kernels.forcing.parameters import parameters_of_row
+from rocking.kernels.classify.cascade import make_workspace
+from rocking.kernels.classify.verdict import empty_results
+from rocking.kernels.system import parameters_of_row
 from rocking.model.verdict import Kind
 
 POINTS, FINER = 100, 200
@@ -61,7 +61,6 @@ def against_one():
         "×",
         1,
         least=True,
-        note="" if batch.has_simd() else "no SIMD on this machine",
     )
     share = 100.0 * np.mean(answers.kind != told.kind)
     yield Figure(

@@ -3,34 +3,38 @@
 import math
 from time import thread_time
 
+import numba
 import numpy as np
 
 from benchmarks.clock import quickest_in_turn
 from benchmarks.table import Figure
-from rocking.kernels.classify.classifier_state import Run
-from rocking.kernels.classify.leg import follow_flights
-from rocking.kernels.classify.quasi_periodicity import under_way
-from rocking.kernels.classify.reset import begin_tangent, new_tracker
-from rocking.kernels.classify.workspace import make_workspace
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic.parameters import parameters_from_row
-from rocking.kernels.lanes.log import log_arcs
-from rocking.kernels.lanes.scalar_fallback import find_event, update_peak
-from rocking.kernels.lanes.state import FIND_EVENT, IDLE, LANES, LOAD_NEXT, NO_REQUEST, UPDATE_PEAK
+from rocking.kernels.classify.cascade import Run, follow_flights, make_workspace
+from rocking.kernels.classify.resets import begin_tangent, new_tracker
+from rocking.kernels.classify.torus import under_way
+from rocking.kernels.lanes.scalar import find_event, log_arcs, update_peak
+from rocking.kernels.lanes.state import (
+    FIND_EVENT,
+    IDLE,
+    LANES,
+    LOAD_NEXT,
+    NO_REQUEST,
+    UPDATE_PEAK,
+    load_block,
+    make_lane_workspace,
+    set_leg,
+)
 from rocking.kernels.lanes.step import advance, apply_impacts
-from rocking.kernels.lanes.transfer import load_block, set_leg
-from rocking.kernels.lanes.workspace import make_lane_workspace
-from rocking.kernels.march.initial_state import UNKNOWN, begin
-from rocking.kernels.march.march import MAX_EVENTS
-from rocking.kernels.march.tangent import TangentState
+from rocking.kernels.library.kernel import OPTIONS, kernel
+from rocking.kernels.motion.march import MAX_EVENTS, UNKNOWN, begin
+from rocking.kernels.motion.tangent import TangentState
+from rocking.kernels.system import slender_of_row
 
 CYCLES, BEFORE = 3000, 30
 BLOCKS = 20 * LANES
 TURNS = 7
 
 
-@njit(**KERNEL)
+@kernel
 def marched(p, progress, cycles, memory):
     """Return the progress of an undamped block after ``cycles``."""
     begin_tangent(memory.tangent)
@@ -38,32 +42,32 @@ def marched(p, progress, cycles, memory):
     return follow_flights(p, run, cycles, MAX_EVENTS, memory, False)[1].tracker.progress
 
 
-@njit(**KERNEL)
+@kernel
 def last_impacts(systems, cycles, memory, phases, speeds):
     """Write phase and speed of the last impact of each block within ``cycles`` from rest."""
     for k in range(systems.shape[0]):
-        p = parameters_from_row(systems[k])
+        p = slender_of_row(systems[k])
         progress = begin(p, 0.0, 0.0, UNKNOWN)[0]
         after = marched(p, progress, cycles, memory)
         phases[k], speeds[k] = math.atan2(after.arc.drive.sine, after.arc.drive.cosine), after.arc.velocity
 
 
-@njit(**KERNEL)
+@kernel
 def alone(systems, speeds, cycles, memory):
     """March the blocks one by one; return the number of impacts."""
     impacts = 0
     for k in range(systems.shape[0]):
-        p = parameters_from_row(systems[k])
+        p = slender_of_row(systems[k])
         progress = begin(p, 0.0, speeds[k], UNKNOWN)[0]
         impacts += marched(p, progress, cycles, memory).impacts
     return impacts
 
 
-@njit(**(KERNEL | {"_nrt": True}))  # it makes a list
+@numba.njit(**(OPTIONS | {"_nrt": True}))  # it makes a list
 def in_lanes(systems, speeds, cycles, memory):
     """March the blocks in lanes; return the number of impacts. A lane that ends takes the next block."""
     s, queue, blocks, impacts = memory.state[0], 0, LANES, 0.0
-    guests = [parameters_from_row(systems[0])] * LANES
+    guests = [slender_of_row(systems[0])] * LANES
     for i in range(LANES):
         s.stage[i] = IDLE
         s.request[i] = LOAD_NEXT
@@ -78,7 +82,7 @@ def in_lanes(systems, speeds, cycles, memory):
                 s.stage[i] = IDLE
                 blocks -= queue >= systems.shape[0]
                 if queue < systems.shape[0]:
-                    p = parameters_from_row(systems[queue])
+                    p = slender_of_row(systems[queue])
                     columns = memory.tangent.columns[i]
                     begin_tangent(TangentState(columns, memory.tangent.growth[i]))
                     load_block(s, i, p, begin(p, 0.0, speeds[queue], UNKNOWN)[0], columns)

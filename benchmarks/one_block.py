@@ -13,11 +13,10 @@ from benchmarks.peers import Heyoka, scipy_march
 from benchmarks.reference import DIGITS, state_at
 from benchmarks.table import Figure
 from rocking import Harmonic, State, System, simulate
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.march import initial_state
-from rocking.kernels.march import march as kernel
-from rocking.kernels.march.progress import Recording
-from rocking.kernels.march.tangent import TangentState
+from rocking.kernels.motion import march as kernel
+from rocking.kernels.motion.march import Recording
+from rocking.kernels.motion.tangent import TangentState
+from rocking.kernels.system import harmonic_parameters
 
 CYCLES_OF_THE_KERNEL = 60_000
 CYCLES_OF_A_THREAD = 200_000
@@ -34,7 +33,7 @@ OVER_HEYOKA = {False: (45, 70, 25), True: (100, 120, 50)}
 def march(case, cycles):
     """March one block from rest with its tangent vectors, in the kernel alone; return (impacts, final point)."""
     p = harmonic_parameters(case.amplitude, case.frequency, case.period, 0.0, case.restitution)
-    progress, _ = initial_state.begin_march(p, 0.0, 0.0)
+    progress, _ = kernel.begin_march(p, 0.0, 0.0)
     while progress.cycle < cycles:
         # The tangent restarts every ``tangent_cycles``, before it overflows or becomes subnormal.
         tangent, until = (

@@ -15,11 +15,10 @@ import numpy as np
 from attrs import evolve
 
 import rocking as rk
-from rocking.kernels import entry_point
-from rocking.kernels.deferred import import_all
+from rocking.kernels.library import export
+from rocking.kernels.library.kernel import import_all
 from rocking.kernels.library.load import open_library
-from rocking.kernels.march.ending import ENDING_ROW
-from rocking.kernels.march.finite_runs import PULSE_ROW, RUN_ROW, run_batch, run_pulses
+from rocking.kernels.motion.finite_motion import ENDING_ROW, PULSE_ROW, RUN_ROW, run_batch, run_pulses
 from rocking.motion.march_loop import parameters
 
 MAX_CALLS = 40
@@ -54,27 +53,30 @@ def workload():
     rk.theory.manifold_gap(np.linspace(0.0, 6.0, 50), 1.5, 1.0, 0.8)
     samples = np.random.default_rng(1).uniform(-3.0, 3.0, 400)
     bases = rk.PiecewiseLinear(samples, step=0.05), rk.Pulse("one-sine", amplitude=1.5, duration=2.0)
-    moving = [
-        rk.simulate(rk.System(base, 0.8, critical_angle=angle)) for base in bases for angle in (None, 0.3)
-    ]
-    full = rk.System(rk.Harmonic(3.0, period=1.0), 0.8, critical_angle=0.3)
-    for moved in (*moving, rk.simulate(full, cycles=200)):
+    full, left = {"critical_angle": 0.3}, {"left": rk.LeftSide(1.3, 0.98, 0.85)}
+    moving = [rk.simulate(rk.System(base, 0.8, **kind)) for base in bases for kind in ({}, full, left)]
+    others = [rk.System(rk.Harmonic(3.0, period=1.0), 0.8, **kind) for kind in (full, left)]
+    for moved in (*moving, *(rk.simulate(other, cycles=200) for other in others)):
         moved.at(np.linspace(0.0, moved.duration, 2_000))
-        moved.validity(rk.Block(height=2.0, width=0.6))
-    orbit = rk.classify(full).orbit
-    rk.find_orbit(full, orbit.start, orbit.period)
-    rk.lyapunov(full, cycles=500)
+        len(moved.peaks)
+    for other in others:
+        orbit = rk.classify(other).orbit
+        rk.find_orbit(other, orbit.start, orbit.period)
+        rk.lyapunov(other, cycles=500)
+        rk.orbit_diagram(other, amplitude=np.linspace(2.0, 4.0, 20))
+        rk.parametric_map(other, amplitude=axes["amplitude"], period=[1.0, 2.0])
+        rk.basin_map(other, angle=starts, velocity=starts, max_cycles=500)
+    full, left = others
     rk.orbit_diagram(full, critical_angle=np.linspace(0.1, 0.4, 20))
     rk.parametric_map(full, amplitude=axes["amplitude"], critical_angle=[0.1, 0.3])
-    rk.basin_map(full, angle=starts, velocity=starts, max_cycles=500)
     rows, never, runs = np.empty(50, ENDING_ROW), np.zeros(1, np.int64), np.zeros(50, RUN_ROW)
     runs["scale"], runs["restitution"], runs["critical_angle"] = np.linspace(0.5, 2.0, 50), 0.8, 0.3
     pulses = np.zeros(50, PULSE_ROW)
     pulses["amplitude"], pulses["restitution"] = np.linspace(1.0, 9.0, 50), 0.9
     pulses["frequency"], pulses["phase"], pulses["duration"] = 5.0, -np.pi / 2, 0.4 * np.pi
     pulses["critical_angle"] = 0.3
-    for angle in (None, 0.3):
-        sampled, pulse = (parameters(rk.System(base, 0.8, critical_angle=angle)) for base in bases)
+    for kind in ({}, {"critical_angle": 0.3}, {"left": left.left}):
+        sampled, pulse = (parameters(rk.System(base, 0.8, **kind)) for base in bases)
         run_batch(sampled, runs, True, rows, never)
         run_pulses(pulse, pulses, True, rows, never)
 
@@ -82,19 +84,19 @@ def workload():
 def record_calls():
     """Return calls of every entry point, by name."""
     import_all()
-    calls = {name: [] for name in entry_point.ENTRY_POINTS}
-    original = entry_point.EntryPoint.__call__
+    calls = {name: [] for name in export.ENTRY_POINTS}
+    original = export.EntryPoint.__call__
 
     def record(self, *arguments):
         if len(calls[self.name]) < MAX_CALLS:
             calls[self.name].append(copy.deepcopy(arguments))
         return original(self, *arguments)
 
-    entry_point.EntryPoint.__call__ = record
+    export.EntryPoint.__call__ = record
     try:
         workload()
     finally:
-        entry_point.EntryPoint.__call__ = original
+        export.EntryPoint.__call__ = original
     return calls
 
 
@@ -140,7 +142,7 @@ def main(path):
     """Print a line for each entry point."""
     other = open_library(Path(path))
     for name, calls in record_calls().items():
-        entry = entry_point.ENTRY_POINTS[name]
+        entry = export.ENTRY_POINTS[name]
         runs = runner(getattr(other, entry.symbol)), runner(entry.load())
         others = sum(outcome(entry, runs[0], each) != outcome(entry, runs[1], each) for each in calls)
         print(name, len(calls), others, ratio_of_times(entry, runs, calls[-1]), flush=True)

@@ -19,10 +19,9 @@ from scipy.integrate import solve_ivp
 import rocking as rk
 from benchmarks.clock import quickest, quickest_in_turn
 from benchmarks.table import Figure
-from rocking.kernels.forcing.sampled.parameters import CYCLE, sampled_parameters
-from rocking.kernels.forcing.sampled.tables import tables_of
-from rocking.kernels.march.ending import ENDING_ROW
-from rocking.kernels.march.finite_runs import RUN_ROW, run_batch
+from rocking.kernels.base.samples import tables_of
+from rocking.kernels.motion.finite_motion import ENDING_ROW, RUN_ROW, run_batch
+from rocking.kernels.system import CYCLE, sampled_system, slender_block
 from tests.oracles import segments
 
 TURNS = 15
@@ -65,7 +64,7 @@ def cells():
     )
     for name, motion in motions:
         for size, block in BLOCKS.items():
-            forcing = block.system(motion).forcing
+            forcing = block.system(motion, model="slender").forcing
             yield Cell(f"{name}, {size}", forcing.values * forcing.scale, forcing.step, block.restitution)
 
 
@@ -77,7 +76,7 @@ def engine(cell, scales):
 
     def run():
         tables = tables_of(cell.values, cell.step)
-        p = sampled_parameters(tables, 1.0, CYCLE * cell.step, cell.restitution)
+        p = sampled_system(slender_block(cell.restitution), tables, 1.0, CYCLE * cell.step)
         run_batch(p, runs, False, rows, never)
 
     return run

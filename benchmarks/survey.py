@@ -17,16 +17,14 @@ from benchmarks.clock import quickest_in_turn
 from benchmarks.lanes import MAX_PERIOD, systems_of
 from benchmarks.table import Figure
 from rocking.kernels import batch
-from rocking.kernels.classify import classifier_state, decision_cascade, leg
-from rocking.kernels.classify.results import empty_results, store_result
-from rocking.kernels.classify.workspace import make_workspace
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic.parameters import parameters_from_row
-from rocking.kernels.forcing.parameters import parameters_of_row
-from rocking.kernels.march import initial_state, march
-from rocking.kernels.march.progress import Recording
+from rocking.kernels.classify import cascade
+from rocking.kernels.classify.cascade import make_workspace
+from rocking.kernels.classify.verdict import empty_results, store_result
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.motion import march
+from rocking.kernels.motion.march import Recording
 from rocking.kernels.numerics.replace_fields import replacing
+from rocking.kernels.system import parameters_of_row, slender_of_row
 from rocking.model.verdict import Criterion
 
 POINTS = 1000
@@ -155,28 +153,28 @@ def engines():
             )
 
 
-at_the_end = replacing(classifier_state.ClassifierState, "checkpoint", "batches")
+at_the_end = replacing(cascade.ClassifierState, "checkpoint", "batches")
 
 
-@njit(**KERNEL)
+@kernel
 def judge_late(systems, cycles, memory, answers):
     """Classify by the decision cascade without early checkpoints: the first comes after ``cycles``."""
     for k in range(systems.shape[0]):
-        p = parameters_from_row(systems[k])
-        case = classifier_state.opened(p, 0.0, 0.0, cycles)
-        case = at_the_end(case, np.int64(cycles), classifier_state.Batches(cycles + 1, 0, 0.0))
-        status, run = leg.march_leg(p, case.run, cycles, cycles, memory)
-        told, _ = decision_cascade.evaluate_checkpoint(p, case, status, run, cycles, MAX_PERIOD, memory)
+        p = slender_of_row(systems[k])
+        case = cascade.opened(p, 0.0, 0.0, cycles)
+        case = at_the_end(case, np.int64(cycles), cascade.Batches(cycles + 1, 0, 0.0))
+        status, run = cascade.march_leg(p, case.run, cycles, cycles, memory)
+        told, _ = cascade.evaluate_checkpoint(p, case, status, run, cycles, MAX_PERIOD, memory)
         store_result(answers, k, told)
 
 
-@njit(**KERNEL)
+@kernel
 def march_all(systems, cycles, memory, answers):
     """March every point from rest to its last cycle, unless it overturns or stays at rest before."""
     nothing = memory.nothing
     for k in range(systems.shape[0]):
-        p = parameters_from_row(systems[k])
-        progress = initial_state.begin(p, 0.0, 0.0, initial_state.UNKNOWN)[0]
+        p = slender_of_row(systems[k])
+        progress = march.begin(p, 0.0, 0.0, march.UNKNOWN)[0]
         recording = Recording(0.0, nothing.section, nothing.events, False, False)
         _, progress = march.march_through(p, progress, cycles, recording, nothing.tangent)
         answers.impacts[k] = progress.impacts

@@ -29,7 +29,9 @@ def march(cycles, amplitude, period, restitution, **more):
 def run_record(levels):
     """Run one block under the record of the package at ``levels`` scales."""
     block, record = rk.Block(height=2.0, width=0.5), rk.example_ground_motion()
-    rk.incremental_dynamic_analysis([record], block, np.linspace(1.0, 4.0, levels), executor=ONE_THREAD)
+    rk.incremental_dynamic_analysis(
+        [record], block, np.linspace(1.0, 4.0, levels), executor=ONE_THREAD, model="slender"
+    )
 
 
 def compute_map(points, restitution, periods=PERIODS, amplitudes=AMPLITUDES, braces=None, **more):

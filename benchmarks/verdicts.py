@@ -9,10 +9,10 @@ import numpy as np
 
 from benchmarks.table import Figure
 from rocking.kernels import batch
-from rocking.kernels.classify import verdict_record
-from rocking.kernels.classify.results import empty_results
-from rocking.kernels.classify.workspace import make_workspace
-from rocking.kernels.forcing.parameters import parameters_of_row
+from rocking.kernels.classify import verdict
+from rocking.kernels.classify.cascade import make_workspace
+from rocking.kernels.classify.verdict import empty_results
+from rocking.kernels.system import parameters_of_row
 
 POINTS = 200
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
@@ -66,13 +66,13 @@ def judged(restitution, max_cycles):
 def maps():
     """Time the map of figure 11 (e = .925) and that of figure 10 (e = 1)."""
     kinds, grounds, work, seconds = judged(0.925, 100_000)
-    undetermined, resets = kinds == verdict_record.UNDETERMINED, grounds == verdict_record.UNRESOLVED_RESET
+    undetermined, resets = kinds == verdict.UNDETERMINED, grounds == verdict.UNRESOLVED_RESET
     yield Figure("e = .925, impacts per point, all work", work.mean(), "", 40)
     yield Figure("  one core", seconds, "s", 0.15, note=f"{POINTS} × {POINTS} points, ≤ 100,000 cycles")
     yield Figure("  undetermined, resets left out", float((undetermined & ~resets).sum()), "points", 0)
     yield Figure("  resets of unresolved period", float(resets.sum()), "points")
     kinds, grounds, work, seconds = judged(1.0, 10_000)
-    open_share = 100.0 * np.isin(kinds, (verdict_record.CHAOTIC, verdict_record.UNDETERMINED)).mean()
+    open_share = 100.0 * np.isin(kinds, (verdict.CHAOTIC, verdict.UNDETERMINED)).mean()
     yield Figure("e = 1, impacts per point, all work", work.mean(), "", 600, note="≤ 10,000 cycles")
     yield Figure("  still chaotic or undetermined", open_share, "%", 3.5)
     yield Figure("  one core", seconds, "s")

@@ -1,7 +1,7 @@
 """Block in an earthquake: time history under the same record, weaker and stronger.
 
 The record is that of Loma Prieta 1989 that comes with the package. A block of 2 m × 0.5 m overturns at a
-peak of 1.2 g. It stands at 0.6 g, and again at 1.28 g. Run ``python examples/earthquake.py [FILE]``. It writes the figure to FILE. Default:
+peak of 1.17 g. It stands at 0.6 g, and again at 1.2 g. Run ``python examples/earthquake.py [FILE]``. It writes the figure to FILE. Default:
 ``earthquake.png`` in the current folder.
 """
 
@@ -14,7 +14,7 @@ def draw():
     """Draw a panel per peak acceleration, with the outcome in its title."""
     block, ground = rk.Block(height=2.0, width=0.5), rk.example_ground_motion()
     figure, axes = rk.plot.panels(rows=3, height=2.0)
-    for ax, pga in zip(axes, (0.6, 1.2, 1.28), strict=True):
+    for ax, pga in zip(axes, (0.6, 1.17, 1.2), strict=True):
         motion = rk.simulate(block.system(ground.scaled(pga=pga * 9.80665)))
         rk.plot.time_history(motion, ax, block)
         rk.plot.title(ax, f"peak {pga:g} g: {motion.outcome}")

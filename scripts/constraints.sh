@@ -13,7 +13,7 @@ for python in "${@:?name the interpreters, for example python3.11 python3.12}"; 
     inside=$scratch/$version/bin/python
     "$python" -m venv "$scratch/$version"
     "$inside" -m pip install --quiet --upgrade pip setuptools
-    "$inside" -m pip install --quiet --editable '.[distributed,docs,explorer,film,kernels,lint,netcdf,obspy,proof,report,store,test]'
+    "$inside" -m pip install --quiet --editable '.[distributed,docs,excel,explorer,film,kernels,lint,netcdf,obspy,proof,report,store,test]'
     "$inside" - <<'PYTHON'
 from importlib import import_module
 from importlib.metadata import packages_distributions

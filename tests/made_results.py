@@ -40,7 +40,7 @@ def orbit_manifolds():
 MADE = {
     "motion": lambda: rk.simulate(SYSTEM, cycles=20),
     "motion of a block": lambda: rk.simulate(OF_BLOCK, cycles=20),
-    "motion under a record": lambda: rk.simulate(BLOCK.system(RECORDS[0])),
+    "motion under a record": lambda: rk.simulate(BLOCK.system(RECORDS[0], model="slender")),
     "section": lambda: rk.simulate(SYSTEM, cycles=20, record="section"),
     "verdict": lambda: rk.classify(SYSTEM),
     "verdict of a block": lambda: rk.classify(OF_BLOCK, prove=True),
@@ -53,6 +53,10 @@ MADE = {
     "exponents of a resting block": lambda: rk.lyapunov(RESTING, cycles=100),
     "spectrum": lambda: rk.spectral_density(rk.simulate(OF_BLOCK, cycles=300), transient=100),
     "dimension": lambda: rk.correlation_dimension(np.random.default_rng(1).random((3_000, 2))),
+    "fit of the restitution": lambda: rk.fit_restitution(
+        [0.0, 0.90, 1.68, 2.36, 2.97, 3.52, 4.02], frequency_parameter=2.7
+    ),
+    "slip": lambda: rk.slide(RECORDS[0].scaled(pga=6.0), friction=0.2),
     "rotation number": lambda: rk.rotation_number(
         rk.System(rk.Harmonic(amplitude=4.0, period=0.4), restitution=1.0)
     ),
@@ -113,7 +117,9 @@ MADE = {
         amplitude=[1.0, 8.0],
         frequency=[1.0, 5.0],
     ),
-    "rocking spectrum": lambda: rk.rocking_spectrum(RECORDS, BLOCK, size=[0.5, 1.0], slenderness=[0.1, 0.2]),
+    "rocking spectrum": lambda: rk.rocking_spectrum(
+        RECORDS, BLOCK, size=[0.5, 1.0], slenderness=[0.1, 0.2], model="slender"
+    ),
     "repeatability": lambda: rk.repeatability(OF_BLOCK, samples=10),
     "map of repeatability": lambda: rk.repeatability_map(
         rk.System(rk.Harmonic(1.0, period=1.0), restitution=0.9),
@@ -129,11 +135,29 @@ MADE = {
         )
     ),
     "incremental dynamic analysis": lambda: rk.incremental_dynamic_analysis(
-        RECORDS, BLOCK, LEVELS, intensity="pga"
+        RECORDS,
+        BLOCK,
+        LEVELS,
+        intensity="pga",
+        model="slender",
     ),
-    "overturning set": lambda: rk.overturning_set(RECORDS, BLOCK, LEVELS, intensity="pga"),
-    "fragility": lambda: rk.fragility(RECORDS, BLOCK, LEVELS, intensity="pga", limits=[0.5]),
-    "sensitivity": lambda: rk.sensitivity(RECORDS, BLOCK, LEVELS, intensity="pga"),
+    "overturning set": lambda: rk.overturning_set(RECORDS, BLOCK, LEVELS, intensity="pga", model="slender"),
+    "comparison of intensities": lambda: rk.compare_intensities(
+        rk.overturning_set(rk.synthetic_ground_motions(6, seed=1), BLOCK, [3.0, 5.0, 8.0], intensity="pga"),
+        ["pga", "pgv"],
+    ),
+    "fragility": lambda: rk.fragility(RECORDS, BLOCK, LEVELS, intensity="pga", limits=[0.5], model="slender"),
+    "assessment": lambda: rk.assess(
+        RECORDS, BLOCK, LEVELS, intensity="pga", model="slender", level=LEVELS[0]
+    ),
+    "overturning rate": lambda: rk.overturning_rate(
+        rk.fragility(
+            rk.synthetic_ground_motions(8, seed=1), BLOCK, [3.0, 4.0, 5.0, 6.0], limits=(), model="slender"
+        ),
+        ([1.0, 3.0, 10.0], [0.02, 2e-3, 1e-4]),
+        replicates=100,
+    ),
+    "sensitivity": lambda: rk.sensitivity(RECORDS, BLOCK, LEVELS, intensity="pga", model="slender"),
 }
 
 

@@ -64,6 +64,8 @@ SURVEYS = {
 
 RECORDS = rk.synthetic_ground_motions(2, seed=3, duration=4.0)
 OF_RECORDS = {"records": RECORDS, "block": rk.Block(2.0, 0.5), "levels": np.linspace(1.0, 4.0, 40)}
+TABLE = rk.Restitution.table([(0.1, 0.95), (0.8, 0.85)])
+SCATTERED = OF_RECORDS | {"block": rk.Block(2.0, 0.5, TABLE.scattered(0.02, seed=1)), "model": "full"}
 TWO_AXES = {"amplitude": np.linspace(0.0, 16.0, 44), "period": np.linspace(0.2, 3.0, 44)}
 SYSTEM = system_with(restitution=0.9)
 STARTS = {"angle": (-1.0, 1.0), "velocity": (-1.0, 1.0), "samples": 100, "max_cycles": 40}
@@ -98,11 +100,22 @@ EVERY = {
     ),
     "dynamic analysis": (rk.incremental_dynamic_analysis, OF_RECORDS),
     "fragility": (rk.fragility, OF_RECORDS | {"samples": 2, "width_spread": 0.1, "replicates": 100}),
+    "fragility with scatter": (rk.fragility, SCATTERED | {"samples": 3, "replicates": 100}),
+    "overturning set with scatter": (rk.overturning_set, SCATTERED),
     "sensitivity": (rk.sensitivity, OF_RECORDS),
     "overturning set": (rk.overturning_set, OF_RECORDS),
     "orbits": (
         rk.find_orbits,
         {"system": system_with(amplitude=6.0, restitution=0.9), "max_period": 6, "effort": 0.5},
+    ),
+    "orbit diagram": (
+        rk.orbit_diagram,
+        {
+            "system": system_with(restitution=0.9),
+            "amplitude": np.linspace(2.0, 12.0, 8),
+            "transient": 200_000,
+            "cycles": 5,
+        },
     ),
     "response diagram": (
         rk.response_diagram,

@@ -2,6 +2,7 @@
 
 from rocking import plot as plot
 from rocking import theory as theory
+from rocking.assessment.assess import assess as assess
 from rocking.model.block import Block as Block
 from rocking.model.forcing import Harmonic as Harmonic
 from rocking.model.forcing import PiecewiseLinear as PiecewiseLinear
@@ -10,8 +11,10 @@ from rocking.model.ground_motion import GroundMotion as GroundMotion
 from rocking.model.package import __version__ as __version__
 from rocking.model.package import cite as cite
 from rocking.model.record_set import RecordSet as RecordSet
+from rocking.model.restitution import Restitution as Restitution
 from rocking.model.share import Share as Share
 from rocking.model.system import Braces as Braces
+from rocking.model.system import LeftSide as LeftSide
 from rocking.model.system import State as State
 from rocking.model.system import System as System
 from rocking.model.validation import InputWarning as InputWarning
@@ -22,6 +25,7 @@ from rocking.model.validation import TooShort as TooShort
 from rocking.model.verdict import Kind as Kind
 from rocking.model.verdict import Outcome as Outcome
 from rocking.motion.simulate import simulate as simulate
+from rocking.motion.sliding import slide as slide
 from rocking.orbits.bifurcation_curve import bifurcation_curve as bifurcation_curve
 from rocking.orbits.bifurcation_set import bifurcation_set as bifurcation_set
 from rocking.orbits.cascade import cascade as cascade
@@ -45,6 +49,7 @@ from rocking.records.record_set import read_record_set as read_record_set
 from rocking.records.synthetic import synthetic_ground_motions as synthetic_ground_motions
 from rocking.response.classify import classify as classify
 from rocking.response.correlation_dimension import correlation_dimension as correlation_dimension
+from rocking.response.fit_restitution import fit_restitution as fit_restitution
 from rocking.response.impact_section import impact_section as impact_section
 from rocking.response.lyapunov import lyapunov as lyapunov
 from rocking.response.rotation_number import rotation_number as rotation_number
@@ -55,7 +60,9 @@ from rocking.survey.fragility import fragility as fragility
 from rocking.survey.incremental_dynamic_analysis import (
     incremental_dynamic_analysis as incremental_dynamic_analysis,
 )
+from rocking.survey.intensity_comparison import compare_intensities as compare_intensities
 from rocking.survey.overturning_amplitude import overturning_amplitude as overturning_amplitude
+from rocking.survey.overturning_rate import overturning_rate as overturning_rate
 from rocking.survey.overturning_set import overturning_set as overturning_set
 from rocking.survey.parametric_map import parametric_map as parametric_map
 from rocking.survey.repeatability import repeatability as repeatability

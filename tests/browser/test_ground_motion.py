@@ -318,16 +318,24 @@ def test_page_answers_only_on_this_machine(running):
 def test_full_equation_of_motion_changes_the_map_and_the_verdict(ground):
     visitor = ground("?version=1&source=pulse&amplitude=0.35&duration=0.6&scale=1")
     visitor.finished()
-    slender = figure(visitor, "history")["angle"]
-    settled(visitor, lambda: visitor.page.select_option("#model", "full"))
-    assert "model=full" in visitor.page.url
-    assert "is not assessed" in visitor.text("evidence")
+    assert "Certified" in visitor.text("evidence")
     assert "overestimates" not in visitor.text("evidence")
     block = block_of(visitor)
     pulse = rk.Pulse("one-sine", amplitude=0.35 * 9.80665, duration=0.6)
     motion = rk.simulate(block.system(pulse, model="full"))
     angle = figure(visitor, "history")["angle"]
     assert np.abs(angle).max() == pytest.approx(block.degrees(motion.peak), rel=1e-4)
-    assert np.abs(slender).max() != pytest.approx(np.abs(angle).max(), rel=1e-3)
+    assert not visitor.page.is_visible("#normalised_by")
     visitor.see("ground-full")
+    settled(visitor, lambda: visitor.page.select_option("#model", "slender"))
+    assert "model=slender" in visitor.page.url
+    assert "overestimates" in visitor.text("evidence")
+    for by in ("tangent", "angle"):
+        if by == "angle":
+            settled(visitor, lambda: visitor.page.select_option("#normalised_by", "angle"))
+        motion = rk.simulate(block.system(pulse, model="slender", normalised_by=by))
+        angle = figure(visitor, "history")["angle"]
+        assert np.abs(angle).max() == pytest.approx(block.degrees(motion.peak), rel=1e-4)
+    assert "normalised_by=angle" in visitor.page.url
+    visitor.see("ground-slender")
     visitor.is_content()

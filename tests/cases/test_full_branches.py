@@ -135,13 +135,13 @@ def test_a_figure_shows_the_branch(branch):
     [
         (
             lambda branch: rk.switch_branch(branch.special[0], RANGE),
-            "special must be that of a slender block",
+            "special must be that of a slender, symmetric block",
         ),
         (
             lambda branch: rk.bifurcation_curve(
                 branch.special[0], "period", "amplitude", ((0.5, 2.0), (1.0, 40.0))
             ),
-            "slender block",
+            "special must be that of a slender, symmetric block",
         ),
         (
             lambda branch: rk.continue_orbit(branch.orbit(0), "critical_angle", (0.2, 0.4)),

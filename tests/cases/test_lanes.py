@@ -10,11 +10,10 @@ import pytest
 import rocking as rk
 from oracles import lanes as oracle
 from rocking.kernels import batch
-from rocking.kernels.classify.results import empty_results
-from rocking.kernels.classify.workspace import make_workspace
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.forcing.parameters import parameters_of_row
+from rocking.kernels.classify.cascade import make_workspace
+from rocking.kernels.classify.verdict import empty_results
 from rocking.kernels.lanes.state import LANES
+from rocking.kernels.system import harmonic_parameters, parameters_of_row
 
 pytestmark = pytest.mark.xdist_group("lanes")  # the kernels of the oracle are compiled once
 

@@ -200,7 +200,12 @@ def test_scales_that_overturn_are_those_of_single_motions(thin):
     )
     sure = np.flatnonzero(found.certified.values)
     for number in thin(sure, 12, seed=5):
-        motion = rk.simulate(block.system(record.scaled(float(found["level"][number]))), record="none")
+        motion = rk.simulate(
+            block.system(
+                record.scaled(float(found["level"][number])), model="slender", normalised_by="angle"
+            ),
+            record="none",
+        )
         assert (motion.outcome is rk.Outcome.OVERTURNED) == surveys.fallen(found)[number]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.kernels.orbits import branch_point as kernel
+from rocking.kernels.orbits import continuation as kernel
 
 FEIGENBAUM = 4.669201609
 TUTORIAL = (1.721328, 0.8)

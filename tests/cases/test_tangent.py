@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from rocking.kernels import event_kinds as ev
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.march import initial_state, tangent
-from rocking.kernels.march import march as kernel
-from rocking.kernels.march.event_rows import EVENT_ROW
-from rocking.kernels.march.progress import Recording
-from rocking.kernels.march.tangent import TangentState
+from rocking.kernels.motion import march, tangent
+from rocking.kernels.motion.march import Recording
+from rocking.kernels.motion.observers import EVENT_ROW
+from rocking.kernels.motion.tangent import TangentState
+from rocking.kernels.system import harmonic_parameters
 
 NAMES = ("amplitude", "frequency", "phase", "restitution", "brace_angle", "brace_restitution")
 NOTHING = np.empty((0, 2))
@@ -31,11 +30,11 @@ def numbers(case):
 
 def final(case, cycles, columns=NOTHING, growth=NOTHING[:, 0], room=10_000):
     p = numbers(case)
-    progress, _ = initial_state.begin_march(p, case["angle"], case["velocity"])
+    progress, _ = march.begin_march(p, case["angle"], case["velocity"])
     events = np.empty(room, EVENT_ROW)
     recording, tangent = Recording(events=events), TangentState(columns, growth)
-    status, progress, _, written = kernel.march(p, progress, cycles, recording, tangent)
-    assert status in (kernel.DONE, kernel.STILL)
+    status, progress, _, written = march.march(p, progress, cycles, recording, tangent)
+    assert status in (march.DONE, march.STILL)
     arc = progress.arc
     return np.array([arc.side * arc.angle, arc.side * arc.velocity]), progress, events[:written]
 
@@ -219,10 +218,10 @@ def test_exponents_sum_to_the_loss_on_random_bounded_runs():
             )
             case = {**case, **braces, "amplitude": random.uniform(0.0, 60.0)}
         p, columns, growth, cycles = numbers(case), np.eye(2), np.zeros(2), 200
-        progress, _ = initial_state.begin_march(p, case["angle"], case["velocity"])
+        progress, _ = march.begin_march(p, case["angle"], case["velocity"])
         tangent = TangentState(columns, growth)
-        status, progress, _, _ = kernel.march(p, progress, cycles, Recording(), tangent)
-        if status != kernel.DONE or not np.isfinite(growth).all():
+        status, progress, _, _ = march.march(p, progress, cycles, Recording(), tangent)
+        if status != march.DONE or not np.isfinite(growth).all():
             continue  # overturned, or at rest for a while: no exponents
         time = cycles * p.forcing.period
         loss = progress.impacts * math.log(p.block.restitution) + progress.brace_hits * math.log(

@@ -138,7 +138,7 @@ def base_motion(family, rng):
 
 
 def drawn(family, number):
-    """Return a random motion, its block, and the extremes by the oracle."""
+    """Return a random motion, its block, and both as the oracle has them."""
     rng = np.random.default_rng((list(FAMILIES).index(family), number))
     base, same = base_motion(family, rng)
     block = Block(height=2.0, width=2 * math.tan(rng.uniform(0.06, 0.5)), inertia_ratio=rng.uniform(1.1, 1.8))
@@ -160,18 +160,46 @@ def drawn(family, number):
     rock = reactions.Rocking(block.critical_angle, block.inertia_ratio, full, ((0.0, e), *table))
     until = motion.duration if motion.overturning is None else motion.overturning.time
     events = [tuple(row[["time", "kind", "angle", "before", "after"]].item()) for row in motion.events]
-    return motion, block, reactions.extremes(rock, same, (start.angle, start.velocity), events, until)
+    return motion, block, rock, reactions.followed(rock, same, (start.angle, start.velocity), events, until)
 
 
 def differences(family, number):
     """Return the differences of friction, base reaction and angle from a dense scan; a friction above 1 as 1/friction."""
-    motion, block, exact = drawn(family, number)
-    found = motion.validity(block)
+    motion, block, *same = drawn(family, number)
+    found, exact = motion.validity(block), reactions.extremes(*same)
     if found.reaction is None:
         assert exact.reaction == math.inf
         return np.array([0, 0, found.angle - exact.angle])
     needed, expected = (value if value < 1 else 2 - 1 / value for value in (found.friction, exact.friction))
     return np.array([needed - expected, found.reaction - exact.reaction, found.angle - exact.angle])
+
+
+STEP_S = 1e-5
+"""Step of the samples in s between which the first lack of friction is sought."""
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_first_lack_of_friction_is_that_of_dense_samples(family):
+    sought = 0
+    for number in range(7):
+        motion, block, rock, followed = drawn(family, number)
+        needed = motion.validity(block).friction
+        if needed is None or needed < 2e-3:
+            continue
+        needed = min(needed, 5.0)
+        if needed < 5.0:
+            assert motion.validity(block, friction=needed).slides_from is None
+        for share in (0.3, 0.8, 1 - 1e-6, 1 + 1e-6):
+            friction = share * needed
+            found = motion.validity(block, friction=friction)
+            expected = reactions.first_slip(rock, followed, friction, block.time(seconds=STEP_S))
+            if expected == math.inf:
+                assert found.slides_from is None, (number, share)
+                assert not found.refusal
+            else:
+                assert found.slides_from == pytest.approx(expected, abs=1e-9), (number, share)
+            sought += 1
+    assert sought >= 16
 
 
 @pytest.mark.parametrize("family", FAMILIES)

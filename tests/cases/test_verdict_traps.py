@@ -11,19 +11,19 @@ import pytest
 import rocking as rk
 from oracles import undamped
 from rocking.kernels import batch
-from rocking.kernels.classify import verdict_record
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.march import initial_state, march
-from rocking.kernels.march.progress import Recording
-from rocking.kernels.march.tangent import TangentState
+from rocking.kernels.classify import verdict
+from rocking.kernels.motion import march
+from rocking.kernels.motion.march import Recording
+from rocking.kernels.motion.tangent import TangentState
+from rocking.kernels.system import harmonic_parameters
 
 PEAK = """
 import math, sys
-from rocking.kernels.march import initial_state, march
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
+from rocking.kernels.motion import march
+from rocking.kernels.system import harmonic_parameters
 period = 1.5788944723618088
 p = harmonic_parameters(13.266331658291458, 2 * math.pi / period, period, 2.3999632297286526, 0.925)
-progress, _ = initial_state.begin_march(p, -1.5810174541726596, -2.118118497481491)
+progress, _ = march.begin_march(p, -1.5810174541726596, -2.118118497481491)
 status, progress, _, _ = march.march(p, progress, 3, march.Recording(peak=True))
 print(status == march.DONE, progress.cycle, progress.peak)
 """
@@ -194,10 +194,8 @@ def test_a_longer_budget_keeps_every_verdict_that_came_before_its_end():
     systems = drawn(1_500, 3)
     budgets = [judged(systems, cycles) for cycles in (700, 1_500, 2_000, 10_000)]
     for shorter, longer in itertools.pairwise(budgets):
-        early = (shorter.kind != int(verdict_record.Kind.UNDETERMINED)) & (
-            longer.cycles < shorter.cycles.max()
-        )
-        settled = shorter.kind == int(verdict_record.Kind.QUASI_PERIODIC)
+        early = (shorter.kind != int(verdict.Kind.UNDETERMINED)) & (longer.cycles < shorter.cycles.max())
+        settled = shorter.kind == int(verdict.Kind.QUASI_PERIODIC)
         assert settled.sum() > 100
         assert (longer.kind[settled | early] == shorter.kind[settled | early]).all()
         assert (longer.cycles[settled] == shorter.cycles[settled]).all()
@@ -233,7 +231,7 @@ def leaves_its_torus_in_doubles(system):
     """
     amplitude, frequency, period = system[:3].tolist()
     p = harmonic_parameters(amplitude, frequency, period, 0.0, 1.0)
-    progress, _ = initial_state.begin_march(p, 0.0, 0.0)
+    progress, _ = march.begin_march(p, 0.0, 0.0)
     tangent = TangentState(np.eye(2), np.zeros(1))
     motion = rk.simulate(rk.System(rk.Harmonic(amplitude, period=period), 1.0), cycles=30_000)
     if motion.outcome == "overturned":
@@ -273,7 +271,7 @@ def test_a_torus_that_touches_an_impact_is_left_by_rounding_alone():
 def test_few_of_3000_quasi_periodic_verdicts_leave_their_torus_within_30000_cycles():
     """With this seed 14 of 3,000 do in doubles, most of them by rounding alone."""
     systems = drawn(40_000, 1991)
-    settled = systems[judged(systems, 10_000).kind == int(verdict_record.Kind.QUASI_PERIODIC)][:3_000]
+    settled = systems[judged(systems, 10_000).kind == int(verdict.Kind.QUASI_PERIODIC)][:3_000]
     assert len(settled) == 3_000
     in_doubles = [system for system in settled if leaves_its_torus_in_doubles(system)]
     left = rk.Share(sum(leaves_its_torus(system) for system in in_doubles), len(settled))

@@ -11,18 +11,16 @@ import math
 import numba
 import numpy as np
 from rocking.kernels import batch
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import bind_compiled, import_all
-from rocking.kernels.forcing.parameters import HarmonicParameters, parameters_of_row
+from rocking.kernels.library.kernel import OPTIONS, import_all
+from rocking.kernels.system import Cosine, Slender, parameters_of_row
 
 # Kernels in the library have no checks. So these two entry points are compiled here, with checks.
 import_all()
-bind_compiled()
-for entry in (batch.classify_batch_scalar[HarmonicParameters], batch.classify_batch_lanes):
-    setattr(batch, entry.function.__name__, numba.njit(**KERNEL)(entry.function))
+for entry in (batch.classify_batch_scalar[Slender[Cosine]], batch.classify_batch_lanes):
+    setattr(batch, entry.function.__name__, numba.njit(**OPTIONS)(entry.function))
 
-from rocking.kernels.classify.results import empty_results
-from rocking.kernels.classify.workspace import make_workspace
+from rocking.kernels.classify.verdict import empty_results
+from rocking.kernels.classify.cascade import make_workspace
 
 # undamped chaos and tori; dissipative cycle, chaos, resets and overturning; braces
 cases = [(2.0, 0.4, 1.0), (4.0, 0.4, 1.0), (1.75, 0.9, 1.0), (2.0, 1.0, 0.925), (10.103037, 1.721328, 0.8), (1.1, 0.7, 0.5),

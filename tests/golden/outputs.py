@@ -26,6 +26,8 @@ from rocking.cli.main import run
 FOLDER = Path(__file__).parent
 FLOAT = re.compile(r"(?<![\w.])([-+−]?)(\d+\.\d+(?:e[-+]?\d+)?|\d+e[-+]?\d+)(?![\w.])")
 DIGITS = 6
+SLOW = re.compile(r"^computing \d+:\d\d:\d\d\n", re.MULTILINE)
+"""Line that a command without a progress prints when it takes seconds, as on a busy computer."""
 ROUNDING = 1e-9
 """Smaller sizes are rounding errors in the inputs of the golden files."""
 WIDTH = "80"
@@ -115,7 +117,8 @@ def output(line):
         stack.enter_context(contextlib.redirect_stderr(errors))
         code, message = run()
         text = printed.getvalue()
-        parts = [of_json(text) if text.startswith(("{", "[")) else rounded(text), rounded(errors.getvalue())]
+        told = SLOW.sub("", errors.getvalue())
+        parts = [of_json(text) if text.startswith(("{", "[")) else rounded(text), rounded(told)]
         parts += [f"exit {code}: {rounded(message)}" if code or message else ""]
         parts += [
             f"[{path.name}]\n{SUMMARIES[path.suffix](path)}"

@@ -3,9 +3,9 @@
 import math
 
 from rocking.kernels import event_kinds
-from rocking.kernels.forcing.harmonic import next_event
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.forcing.harmonic.solution import arc_from, propagator_or_none
+from rocking.kernels.arc import first_zero_cosine
+from rocking.kernels.arc.slender_cosine import arc_from, propagator_or_none
+from rocking.kernels.system import harmonic_parameters
 
 KINDS = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace"}
 
@@ -22,9 +22,9 @@ def first_event(arc, guess=None):
     elapsed = 0.0
     while True:
         if guess is None:
-            coming = next_event.any_event(system, event_kinds.FLIGHT, flight)
+            coming = first_zero_cosine.any_event(system, event_kinds.FLIGHT, flight)
         else:
-            coming, _ = next_event.next_event(
+            coming, _ = first_zero_cosine.next_event(
                 system, event_kinds.FLIGHT, flight, propagator_or_none(system, guess)
             )
         if coming.event in KINDS:

@@ -7,10 +7,10 @@ import numpy as np
 
 from oracles.engine import harmonic_parameters
 from rocking.kernels import event_kinds
-from rocking.kernels.forcing.arc import Transfer
-from rocking.kernels.forcing.harmonic import next_event
-from rocking.kernels.forcing.harmonic.solution import arc_from
-from rocking.kernels.march import tangent
+from rocking.kernels.arc import first_zero_cosine
+from rocking.kernels.arc.arc import Transfer
+from rocking.kernels.arc.slender_cosine import arc_from
+from rocking.kernels.motion import tangent
 
 
 def _flight(amplitude, omega, phase, velocity, t):
@@ -79,7 +79,7 @@ def engine(mode, faster=0.0):
         mode.amplitude, 2 * math.pi / mode.period, mode.period, mode.phase, mode.restitution
     )
     arc = arc_from(p, 1, 0.0, 0.0, mode.velocity + faster)
-    coming = next_event.any_event(p, event_kinds.FLIGHT, arc)
+    coming = first_zero_cosine.any_event(p, event_kinds.FLIGHT, arc)
     assert coming.event == event_kinds.IMPACT
     start = tangent.Tangent(1.0, 0.0, 0.0, 1.0)
     cosh = 1.0 + coming.versinh

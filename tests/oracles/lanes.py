@@ -4,13 +4,11 @@ import math
 
 import numpy as np
 
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
+from rocking.kernels.arc.arc import shift_clock
+from rocking.kernels.arc.slender_cosine import arc_from
 from rocking.kernels.event_kinds import FLIGHT
-from rocking.kernels.forcing.arc import shift_clock
-from rocking.kernels.forcing.harmonic.solution import arc_from
-from rocking.kernels.lanes.root import step
-from rocking.kernels.lanes.scalar_fallback import find_event, leg_done
+from rocking.kernels.lanes.scalar import find_event, leg_done
+from rocking.kernels.lanes.search import step
 from rocking.kernels.lanes.state import (
     AT_EVENT,
     FAILED,
@@ -19,27 +17,30 @@ from rocking.kernels.lanes.state import (
     LANE_STATE,
     LANES,
     REFINE,
+    arc_of,
+    load_block,
+    set_leg,
     set_system,
 )
 from rocking.kernels.lanes.step import advance, advance_between, apply_events, apply_impacts
-from rocking.kernels.lanes.transfer import arc_of, load_block, set_leg
-from rocking.kernels.march.event_rows import state_at
-from rocking.kernels.march.progress import Progress
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.motion.march import Progress
+from rocking.kernels.motion.observers import state_at
 
 EYE = np.eye(2)
 FIRST = ["wait", "speed", "next_cosine", "next_sine", "next_sinh", "next_versinh", "at_brace"]
 
 
-@njit(**KERNEL)
+@kernel
 def sit_down(s, i, p, side, start, velocity, columns, cycles, angle=0.0):
     """A block in lane i that leaves the base, or flies already."""
     arc = arc_from(p, side, start, angle, velocity)
-    progress = Progress(FLIGHT, 0, arc, True, 0, 0, 0, 0.0, math.inf, 1.0, 0.0, -math.inf)
+    progress = Progress(FLIGHT, 0, arc, True, 0, 0, 0, 0.0, math.inf, 1.0, 0.0, -math.inf, 0)
     load_block(s, i, p, progress, columns)
     set_leg(s, i, cycles, False)
 
 
-@njit(**KERNEL)
+@kernel
 def strike_all(s, braced):
     """The events of all lanes that have arrived."""
     if braced:
@@ -48,13 +49,13 @@ def strike_all(s, braced):
         apply_impacts(s)
 
 
-@njit(**KERNEL)
+@kernel
 def advance_all(s, braced):
     """All lanes onward."""
     return advance_between(s) if braced else advance(s)
 
 
-@njit(**KERNEL)
+@kernel
 def to_the_end(s, p, events):
     """March all lanes, of one system, to their targets; ``events`` (lanes, n, 4) takes (cycle, time, side, velocity) after each event."""
     moving, braced = LANES, p.block.brace_angle < math.inf
@@ -77,7 +78,7 @@ def to_the_end(s, p, events):
                 events[i, k, 2], events[i, k, 3] = s.side[i], s.velocity[i]
 
 
-@njit(**KERNEL)
+@kernel
 def states(s, p, out):
     """Write the states of the blocks at their targets."""
     for i in range(LANES):
@@ -107,7 +108,7 @@ def first_events(systems, starts):
     return found, certain
 
 
-@njit(**KERNEL)
+@kernel
 def step_from(s, p, instants):
     """A lane of the system for each (u, u', cos eta, sin eta), at the time 0 of its arc, and one step of each."""
     for i in range(len(instants)):
@@ -146,13 +147,13 @@ def may_exceed(systems, starts, peaks):
     return answers > 0.0
 
 
-@njit(**KERNEL)
+@kernel
 def strike_now(s):
     """``apply_impacts`` for Python."""
     apply_impacts(s)
 
 
-@njit(**KERNEL)
+@kernel
 def strike_and_pass(s, braced):
     """From the start of an arc as far as lanes go without attention."""
     strike_all(s, braced)

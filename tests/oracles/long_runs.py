@@ -5,11 +5,10 @@ import math
 import numpy as np
 
 import rocking as rk
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.march import initial_state
-from rocking.kernels.march import march as kernel
-from rocking.kernels.march.progress import Recording
-from rocking.kernels.march.tangent import TangentState
+from rocking.kernels.motion import march
+from rocking.kernels.motion.march import Recording
+from rocking.kernels.motion.tangent import TangentState
+from rocking.kernels.system import harmonic_parameters
 
 STAGES = (100_000, 1_000_000, 5_000_000)  # cycles run before a recurrence is looked for
 WINDOW = 4096
@@ -37,13 +36,13 @@ def start_of(case):
 def run(system, start, cycles, *, keep=False, place=0.0):
     """Run without peaks and events: status, final state, (impacts, brace impacts) and section at a place in the cycle."""
     p = _numbers(system)
-    progress, _ = initial_state.begin_march(p, start.angle, start.velocity)
-    rows, done, status = np.empty((cycles if keep else 0, 2)), 0, kernel.PAUSED
-    while status == kernel.PAUSED:
+    progress, _ = march.begin_march(p, start.angle, start.velocity)
+    rows, done, status = np.empty((cycles if keep else 0, 2)), 0, march.PAUSED
+    while status == march.PAUSED:
         recording = Recording(place * p.forcing.period, rows[done:])
-        status, progress, taken, _ = kernel.march(p, progress, cycles, recording)
+        status, progress, taken, _ = march.march(p, progress, cycles, recording)
         done += taken
-    if status == kernel.CROWDED:
+    if status == march.CROWDED:
         raise Unsettled("too many events in a cycle")
     side, reached = progress.arc.side, progress.arc
     counts = (progress.impacts, progress.brace_hits)
@@ -115,7 +114,7 @@ def mean_flight(events):
 def growth_rate(system, start, cycles=CHAOS_CYCLES):
     """Largest exponent per τ over the second half of a run, and its standard error from the means of batches."""
     p = _numbers(system)
-    progress, _ = initial_state.begin_march(p, start.angle, start.velocity)
+    progress, _ = march.begin_march(p, start.angle, start.velocity)
     progress = _onward(p, progress, cycles // 2, np.empty((0, 2)), np.empty(0))
     columns, length, rates = np.eye(2), cycles // 2 // BATCHES, []
     for batch in range(1, BATCHES + 1):
@@ -128,10 +127,10 @@ def growth_rate(system, start, cycles=CHAOS_CYCLES):
 
 
 def _onward(p, progress, cycles, columns, growth):
-    status = kernel.PAUSED
-    while status == kernel.PAUSED:
+    status = march.PAUSED
+    while status == march.PAUSED:
         state = TangentState(columns, growth)
-        status, progress, _, _ = kernel.march(p, progress, cycles, Recording(), state)
-    if status != kernel.DONE:
+        status, progress, _, _ = march.march(p, progress, cycles, Recording(), state)
+    if status != march.DONE:
         raise Unsettled(f"ends with status {status} after more than {STAGES[0]} cycles")
     return progress

@@ -95,16 +95,17 @@ class Found(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """Polynomials of many pieces: coefficients (ORDER + 1, n) of w and (ORDER, n) of a, with the sides and lengths (n,)."""
+    """Polynomials of many pieces: coefficients (ORDER + 1, n) of w and (ORDER, n) of a, with sides, lengths and starts (n,)."""
 
     w: np.ndarray
     a: np.ndarray
     side: np.ndarray
     length: np.ndarray
+    begin: np.ndarray
 
     def chosen(self, which):
         """Select pieces."""
-        return Piece(self.w[:, which], self.a[:, which], self.side[which], self.length[which])
+        return Piece(*(each[..., which] for each in self))
 
 
 def jets(block, w, rate, side, a):
@@ -139,7 +140,7 @@ def pieces(block, base, begins, ends, side, w, rate):
         stops = np.minimum(np.minimum(begins + longest, later), ends)
         a = block.critical_angle * base.series(begins, stops)
         c = jets(block, w, rate, side, a) if side.any() else np.zeros((ORDER + 1, len(a[0])))
-        found.append(Piece(c, a, side, stops - begins))
+        found.append(Piece(c, a, side, stops - begins, begins))
         step = (stops - begins)[:, None]
         slopes = c[1:] * np.arange(1, ORDER + 1)[:, None]
         w, rate = value(c, step)[:, 0], value(slopes, step)[:, 0]
@@ -177,8 +178,17 @@ def greatest(measure, piece):
     return best
 
 
-def extremes(block, base, start, events, until):
-    """Return the extremes up to a time. ``start`` is (Theta, Theta'), events are rows (time, kind, Theta, before, after)."""
+class Followed(NamedTuple):
+    """Pieces of a motion in motion and at rest, impacts (time, restitution), and the events with the start."""
+
+    moving: list
+    resting: list
+    impacts: list
+    rows: list
+
+
+def followed(block, base, start, events, until):
+    """Follow a motion up to a time. ``start`` is (Theta, Theta'), events are rows (time, kind, Theta, before, after)."""
     level = np.tan(block.critical_angle) / block.critical_angle if block.full else 1.0
     first = base.series(np.zeros(1), np.full(1, 1e-9))[0, 0]
     kind = "rest" if start == (0, 0) and abs(first) <= level else "lift-off"
@@ -201,21 +211,67 @@ def extremes(block, base, start, events, until):
         zero = np.zeros(begins.size)
         resting = pieces(block, base, begins, stops, zero, zero, zero)
     speeds, kept = np.array(block.law).T
-    hits = [np.interp(abs(row[3]), speeds, kept) for row in events if row[1] == "impact" and row[0] <= until]
-    e = min(hits, default=1.0)
+    hits = [
+        (row[0], np.interp(abs(row[3]), speeds, kept))
+        for row in events
+        if row[1] == "impact" and row[0] <= until
+    ]
+    return Followed(moving, resting, hits, [*begun, *rows])
+
+
+def impulse_ratio(block, e):
+    """|J_x|/J_y of an impact."""
+    return (1 - e) / ((1 + e) * np.tan(block.critical_angle))
+
+
+def extremes(block, motion):
+    """Return the extremes of a followed motion."""
+    moving, resting, impacts, rows = motion
+    e = min((e for _, e in impacts), default=1.0)
     least = [-greatest(lambda p, x: -reactions(block, p, x)[1], p) for p in moving]
-    reaction = min([1.0] * bool(still) + least, default=np.inf)
+    reaction = min([1.0] * bool(resting) + least, default=np.inf)
     slides = [0.0] if reaction <= 0 else [greatest(lambda p, x: ratio(block, p, x), p) for p in moving]
     return Found(
         moving=max(slides, default=0.0),
         resting=max((greatest(lambda p, x: np.abs(value(p.a, x)), p) for p in resting), default=0.0),
-        impact=(1 - e) / ((1 + e) * np.tan(block.critical_angle)),
+        impact=impulse_ratio(block, e),
         reaction=reaction,
         angle=max(
-            [block.critical_angle * max(abs(row[2]) for row in [*begun, *rows])]
+            [block.critical_angle * max(abs(row[2]) for row in rows)]
             + [greatest(lambda p, x: reactions(block, p, x)[2], p) for p in moving]
         ),
     )
+
+
+def first_slip(block, motion, friction, step):
+    """Return the first time at which |H| > friction N, from samples a step apart and bisection between two of them."""
+
+    def lacks(piece, x):
+        if piece.side[0] == 0:
+            return np.abs(value(piece.a, x)) - friction
+        across, up, _ = reactions(block, piece, x)
+        return np.abs(across) - friction * up
+
+    hits = [time for time, e in motion.impacts if impulse_ratio(block, e) > friction]
+    found = min(hits, default=np.inf)
+    for many in [*motion.moving, *motion.resting]:
+        for index in np.argsort(many.begin, kind="stable"):
+            piece = many.chosen([index])
+            begin, length = piece.begin[0], piece.length[0]
+            if begin >= found:
+                break
+            x = np.append(np.arange(0, length, step), length)
+            over = np.flatnonzero(lacks(piece, x[None])[0] > 0)
+            if not over.size:
+                continue
+            high = x[over[0]]
+            low = x[over[0] - 1] if over[0] else high
+            for _ in range(60):
+                middle = (low + high) / 2
+                low, high = (low, middle) if lacks(piece, np.array([[middle]]))[0, 0] > 0 else (middle, high)
+            found = min(found, begin + high)
+            break
+    return found
 
 
 def ratio(block, piece, x):

@@ -25,7 +25,7 @@ from oracles.long_runs import (
     system_of,
 )
 from oracles.motion import simulate
-from rocking.kernels.march import march as kernel
+from rocking.kernels.motion import march
 
 PATIENCE = 5_000
 BESIDE = (1e-8, 3e-9, 1e-9, 1e-10)  # a verdict must hold for a hundredth of the largest
@@ -54,9 +54,9 @@ def judge(case, *, factor=1.0, confirm=True, chaos_cycles=CHAOS_CYCLES):
     system = system_of(case, factor)
     try:
         status, reached, _, _ = run(system, start_of(case), STAGES[0])
-        if status == kernel.OVERTURNED:
+        if status == march.OVERTURNED:
             return _overturned(case, system, confirm)
-        if status == kernel.STILL:
+        if status == march.STILL:
             return _rest(case, confirm)
         return _bounded(case, system, reached, confirm, chaos_cycles)
     except rk.TooManyEvents as error:
@@ -116,7 +116,7 @@ def _bounded(case, system, final, confirm, chaos_cycles):
     for cycles in STAGES:
         if cycles > done:
             status, final, _, _ = run(system, final, cycles - done)
-            if status != kernel.DONE:
+            if status != march.DONE:
                 raise Unsettled(f"still or overturned after more than {STAGES[0]} cycles")
             done = cycles
         lag = loose = returns_after(system, final, RETURN)

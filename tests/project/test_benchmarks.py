@@ -6,9 +6,9 @@ import pytest
 import rocking as rk
 from benchmarks import lanes, marching, verdicts
 from benchmarks.recorded_calls import record_calls
-from rocking.kernels.classify import verdict_record
-from rocking.kernels.classify.workspace import make_workspace
-from rocking.kernels.lanes.workspace import make_lane_workspace
+from rocking.kernels.classify import verdict
+from rocking.kernels.classify.cascade import make_workspace
+from rocking.kernels.lanes.state import make_lane_workspace
 
 
 @pytest.mark.long
@@ -25,7 +25,7 @@ def test_map_of_the_bench_is_the_map(monkeypatch, restitution):
     assert len(set(kinds)) >= 3
     assert np.mean(kinds == found.kind.values.ravel()) > 0.98
     assert np.mean(grounds == found.evidence.values.ravel()) > 0.98
-    assert (work[kinds == verdict_record.PERIODIC] > 0).all()
+    assert (work[kinds == verdict.PERIODIC] > 0).all()
 
 
 @pytest.mark.long

@@ -19,6 +19,8 @@ DOCS = ROOT / "docs"
 PAGES = sorted(DOCS.glob("*.md"))
 FRONT = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")]
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+NEEDS_FILES = "examples/shake_table.py"
+"""Example that the gallery cannot run, because its files are not part of the package."""
 FENCE = re.compile(r"^```(.*?)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -39,6 +41,9 @@ DIRECTIVES = {
 
 def name_of(path):
     return path.relative_to(ROOT).as_posix()
+
+
+RUN = {name_of(script) for script in EXAMPLES} - {NEEDS_FILES}
 
 
 def fences(path):
@@ -103,17 +108,16 @@ def test_nothing_is_installed_by_a_name_that_an_index_may_give_to_another_packag
     assert [line for line in lines if not re.match(own, line)] == []
 
 
-def test_the_same_bits_are_said_of_one_kind_of_processor_only():
+def test_the_same_bits_of_surveys_are_said_of_one_class_of_processors_only():
     said = [
         paragraph
         for path in [*PAGES, *FRONT]
         for paragraph in path.read_text(encoding="utf-8").split("\n\n")
         if "bit-identical" in paragraph
     ]
-    assert len(said) >= 4
-    assert [
-        paragraph for paragraph in said if not re.search(r"(kind|type)\s+of\s+processor", paragraph)
-    ] == []
+    assert len(said) >= 3
+    one = r"same\s+(machine|\[?class\s+of\s+processors)"
+    assert [paragraph for paragraph in said if not re.search(one, paragraph)] == []
 
 
 def test_readme_says_of_what_kind_the_base_motion_is():
@@ -187,7 +191,7 @@ def test_the_gallery_shows_every_plot_example_and_figure():
         for kind, _ in fences(page)
         if kind.startswith("{script}")
     }
-    assert {pages[name_of(script)] for script in EXAMPLES} == {"gallery-examples"}
+    assert {pages[script] for script in RUN} == {"gallery-examples"}
     for paper in PAPERS:
         assert f"{{figures}} {paper}" in [kind for kind, _ in fences(DOCS / f"gallery-{paper}.md")]
 
@@ -207,7 +211,7 @@ def test_every_public_function_names_related_functions():
 
 def test_every_example_is_in_the_gallery_once():
     shown = [kind.split()[1] for page in PAGES for kind, _ in fences(page) if kind.startswith("{script}")]
-    assert sorted(shown) == sorted(map(name_of, EXAMPLES))
+    assert sorted(shown) == sorted(RUN)
 
 
 @pytest.mark.parametrize("page", [*PAGES, ROOT / "README.md"], ids=name_of)

@@ -112,12 +112,12 @@ def test_an_interrupted_run_leaves_nothing(project, tmp_path):
 
 @pytest.mark.parametrize(
     ("words", "kernels", "count"),
-    [([], None, 3), (["plot/"], None, 1), ([], True, 1), ([], False, 2), (["march", "plot/"], False, 1)],
+    [([], None, 3), (["plot/"], None, 1), ([], True, 1), ([], False, 2), (["motion", "plot/"], False, 1)],
 )
 def test_entries_are_selected_by_file(words, kernels, count):
     files = [
         "src/rocking/plot/sections.py",
-        "src/rocking/kernels/march/march.py",
+        "src/rocking/kernels/motion/march.py",
         "src/rocking/model/block.py",
     ]
     assert len(mutations.select([Mutation(file, "", "", "") for file in files], words, kernels)) == count

@@ -11,10 +11,11 @@ from numba import njit
 import rocking as rk
 from oracles.full_block import DIGITS, Block, Cosine
 from oracles.full_steps import Line, Motion, Start, Wave
-from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.forcing.drives import FullHarmonicDrive, FullPulseDrive, FullSampledDrive
-from rocking.kernels.forcing.full.crossing import first_zero
-from rocking.kernels.forcing.full.step import LONG, cannot_reach_base, error_bound, state_in, step_from
+from rocking.kernels import system as numbers
+from rocking.kernels.arc.first_zero_full import first_zero_of_step
+from rocking.kernels.arc.full_step import LONG, cannot_reach_base, error_bound, state_in, step_from
+from rocking.kernels.base.cosine import HarmonicDrive, PulseDrive
+from rocking.kernels.base.samples import SampledDrive
 from rocking.motion.march_loop import parameters
 
 FEW, MANY = 400, 20_000
@@ -25,16 +26,7 @@ ROUNDING = 2.0**-53
 @pytest.fixture(scope="module")
 def kernels():
     """The kernels, callable from Python."""
-    from rocking.kernels.deferred import bind_compiled
-
-    bind_compiled()
-    zero, step, state, bound, clear = (
-        first_zero.compiled,
-        step_from.compiled,
-        state_in.compiled,
-        error_bound.compiled,
-        cannot_reach_base.compiled,
-    )
+    zero, step, state, bound, clear = first_zero_of_step, step_from, state_in, error_bound, cannot_reach_base
 
     @njit
     def find(a, b, c, h):
@@ -43,30 +35,29 @@ def kernels():
     @njit
     def take(p, side, angle, velocity, drive):
         made = step(p, side, angle, velocity, drive)
-        error = bound(p, velocity, made.series, made.length, drive, LONG)
-        return made, state(made, made.length), error, clear(p, made, drive)
+        error = bound(p, side, velocity, made.series, made.length, drive, LONG)
+        return made, state(made, made.length), error, clear(p, side, made, drive)
 
     return find, take
 
 
-def test_error_of_a_step_is_below_its_bound(kernels):
+@pytest.mark.parametrize("left", [(1.0, 1.0), (1.6, 0.9), (0.6, 1.1)])
+def test_error_of_a_step_is_below_its_bound(kernels, left):
     random, worst = np.random.default_rng(1), 0.0
     for _ in range(40):
         alpha, amplitude, period, phase = (
             float(random.uniform(*limits)) for limits in ((0.05, 1.2), (0.0, 6.0), (0.3, 3.0), (-3.0, 3.0))
         )
         angle, velocity = float(random.uniform(0.0, 1.2)), float(random.uniform(-1.0, 1.0))
-        p = numbers.full_harmonic_parameters(
-            numbers.full_block(0.9, alpha), amplitude, 2 * math.pi / period, period, phase
-        )
-        drive = FullHarmonicDrive(math.cos(p.forcing.phase), math.sin(p.forcing.phase))
-        made, (rise, speed), bound, _ = kernels[1](p, 1, angle, velocity, drive)
+        block = numbers.full_block(0.9, alpha, left=numbers.LeftSide(*left, 0.9))
+        p, side = numbers.harmonic_system(block, amplitude, 2 * math.pi / period, period, phase), -1
+        drive = HarmonicDrive(math.cos(p.forcing.phase), math.sin(p.forcing.phase))
+        made, (rise, speed), bound, _ = kernels[1](p, side, angle, velocity, drive)
         with mp.workdps(DIGITS):
-            exact = Block(
-                Cosine(amplitude, 2 * mp.pi / mp.mpf(p.forcing.frequency), p.forcing.phase), 0.9, alpha
-            )
-            u, v, _ = exact.step(1, mp.mpf(0), mp.mpf(angle), mp.mpf(velocity), mp.mpf(made.length) / 2)
-            u, v, _ = exact.step(1, mp.mpf(made.length) / 2, u, v, mp.mpf(made.length) / 2)
+            base = Cosine(amplitude, 2 * mp.pi / mp.mpf(p.forcing.frequency), p.forcing.phase)
+            exact = Block(base, 0.9, alpha, left=left)
+            u, v, _ = exact.step(side, mp.mpf(0), mp.mpf(angle), mp.mpf(velocity), mp.mpf(made.length) / 2)
+            u, v, _ = exact.step(side, mp.mpf(made.length) / 2, u, v, mp.mpf(made.length) / 2)
         assert bound <= 1e-16
         error = max(abs(float(u - angle - rise)), abs(float(v - speed)))
         worst = max(worst, error)
@@ -188,16 +179,16 @@ def harmonic(start, _):
     """Return parameters and drive of a step under a cosine."""
     base = start.base
     block, period = numbers.full_block(0.9, start.alpha), 2 * math.pi / base.frequency
-    p = numbers.full_harmonic_parameters(block, base.amplitude, base.frequency, period, 0.0)
-    return p, FullHarmonicDrive(base.cosine, base.sine)
+    p = numbers.harmonic_system(block, base.amplitude, base.frequency, period, 0.0)
+    return p, HarmonicDrive(base.cosine, base.sine)
 
 
 def pulse(start, random):
     """Return parameters and drive of a step that the end of a pulse may cut short."""
     base, left = start.base, float(10.0 ** random.uniform(-3, 0))
     block = numbers.full_block(0.9, start.alpha)
-    p = numbers.full_pulse_parameters(base.amplitude, base.frequency, 0.0, left, 10.0, block)
-    return p, FullPulseDrive(left, base.cosine, base.sine)
+    p = numbers.pulse_system(block, base.amplitude, base.frequency, 0.0, left, 10.0)
+    return p, PulseDrive(0.0, base.cosine, base.sine)
 
 
 def sampled(start, random):
@@ -205,7 +196,7 @@ def sampled(start, random):
     base, step = start.base, float(10.0 ** random.uniform(-3, 0))
     values = [base.value, base.value + base.slope * step]
     system = rk.System(rk.PiecewiseLinear(values, step=step), 0.9, critical_angle=start.alpha)
-    return parameters(system, None), FullSampledDrive(0, 0.0)
+    return parameters(system, None), SampledDrive(0, 0.0)
 
 
 def fault_of(kernels, place, random, start, order):

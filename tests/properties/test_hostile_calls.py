@@ -67,12 +67,25 @@ def special(kind):
 
 
 @cache
+def of_six():
+    return rk.overturning_set(rk.synthetic_ground_motions(6, seed=1), BLOCK, [3.0, 5.0, 8.0], intensity="pga")
+
+
+@cache
 def saddle():
     return next(each for each in rk.find_orbits(FORCED, 1) if each.impacts and each.stability == "unstable")
 
 
+@cache
+def fragility():
+    return rk.fragility(
+        rk.synthetic_ground_motions(8, seed=1), BLOCK, [3.0, 4.0, 5.0, 6.0], limits=(), model="slender"
+    )
+
+
 # Arguments of a cheap call of each public function, without those that have a default that is cheap.
 USUAL = {
+    "assess": lambda: SURVEY | {"levels": [0.5, 2.0]},
     "basin_map": lambda: {"system": SADDLE, "angle": [-0.5, 0.5], "velocity": [-0.5, 0.5], "max_cycles": 50, "boundary_runs": 0},
     "bifurcation_curve": lambda: {
         "special": special("symmetry-breaking"), "first": "amplitude", "second": "period", "bounds": ((7.0, 10.0), (1.6, 1.8)), "step": 0.1,
@@ -83,11 +96,13 @@ USUAL = {
     "chaos_share": lambda: {"system": SYSTEM, "samples": 3, "max_cycles": 50},
     "cite": dict,
     "classify": lambda: {"system": SYSTEM, "max_cycles": 500},
+    "compare_intensities": lambda: {"overturning": of_six(), "measures": ["pga", "pgv"], "replicates": 100},
     "continue_orbit": lambda: {"orbit": orbit(), "parameter": "amplitude", "bounds": (6.9, 7.1), "max_points": 5},
     "correlation_dimension": lambda: {"points": np.random.default_rng(1).uniform(size=(20_000, 2))},
     "example_ground_motion": dict,
     "find_orbit": lambda: {"system": SYSTEM, "guess": rk.State(orbit().at(0.0).angle, orbit().at(0.0).velocity), "period": 1},
     "find_orbits": lambda: {"system": SYSTEM, "max_period": 1, "effort": 0.01},
+    "fit_restitution": lambda: {"times": [0.0, 0.90, 1.68, 2.36, 2.97, 3.52, 4.02], "frequency_parameter": 2.7},
     "fragility": lambda: SURVEY | {"levels": [0.5, 5.0, 50.0], "limits": 0.5, "replicates": 100},
     "frequency_response": lambda: {"system": MILD, "period": [1.0, 1.1], "modes": (1,), "max_cycles": 50, "step": 0.01},
     "grazing_transition": lambda: {"special": special("grazing"), "distances": (1e-2, 1e-3, 1e-4, 1e-5), "max_cycles": 50},
@@ -100,6 +115,7 @@ USUAL = {
     "overturning_amplitude": lambda: {
         "system": SYSTEM, "period": [1.0, 1.1], "amplitude": [1.0, 2.0], "phases": 1, "max_cycles": 20,
     },
+    "overturning_rate": lambda: {"fragility": fragility(), "hazard": {1.0: 0.02, 3.0: 2e-3, 10.0: 1e-4}, "replicates": 100},
     "overturning_set": lambda: SURVEY | {"levels": [0.5, 2.0]},
     "overturning_spectrum": lambda: {"system": PULSED, "amplitude": [1.0, 3.0], "frequency": [1.0, 2.0]},
     "parametric_map": lambda: {"system": SYSTEM, "amplitude": [1.0, 3.0], "period": [1.0, 2.0], "max_cycles": 20},
@@ -119,6 +135,7 @@ USUAL = {
     "safe_basin": lambda: {"system": SYSTEM, "amplitude": [3.0, 4.0], "samples": 5, "max_cycles": 20},
     "sensitivity": lambda: SURVEY | {"levels": [0.5, 2.0]},
     "simulate": lambda: {"system": SYSTEM, "cycles": 5},
+    "slide": lambda: {"ground": GROUND, "friction": 0.2},
     "spectral_density": lambda: {"motion": rk.simulate(SYSTEM, cycles=70)},
     "switch_branch": lambda: {"special": special("symmetry-breaking"), "bounds": (7.0, 11.5), "step": 0.1, "max_points": 5},
     "synthetic_ground_motions": lambda: {"count": 1, "seed": 1, "duration": 2.0, "step": 0.01},
@@ -127,13 +144,16 @@ USUAL = {
 # Arguments by name, of the closed forms and of methods.
 ALLOWED = {
     "acceleration": 2.0, "amplitude": 2.0, "angle": 0.5, "base_acceleration": 1.0, "block": BLOCK, "duration": 1.0, "fraction": 0.5,
+    "friction": 0.3,
     "frequency": 2.0, "ground": GROUND, "height": 2.0, "hertz": 1.0, "impacts": 2, "index": 0, "kind": "one-sine", "level": 1.0,
     "levels": [0.5, 1.0], "mass_ratio": 1.0, "n": 1, "of": (0.5,), "orbit": "upper", "period": 1.0, "periods": [0.5, 1.0], "phase": 0.5,
     "radians": 0.1, "radians_per_second": 0.1, "record": 0, "restitution": 0.8, "rule": "fema-356", "seconds": 0.5, "start": 0.5,
-    "time": 0.5, "times": [0.5, 1.0], "velocity": 0.5, "width": 0.5, "critical_angle": 0.2, "value": 7.0,
+    "threshold": 0.5, "step": 0.05, "time": 0.5, "times": [0.5, 1.0], "velocity": 0.5, "width": 0.5, "critical_angle": 0.2, "value": 7.0,
+    "other": rk.Block(4.0, 1.0),
 }  # fmt: skip
 METHODS = {
     "Block.angle": {"degrees": 5.0},
+    "GroundMotion.rotated": {"other": GROUND, "angle": 0.5},
     "Block.system": {"acceleration": 3.0, "frequency_hz": 1.2},
     "Orbit.motion": {"cycles": 2},
 }
@@ -229,10 +249,13 @@ def drawn(name):
             "seconds": 0.2,
             "fps": 5.0,
         },
+        "restitution_fit": lambda: {"result": made("fit_restitution")},
         "branch": lambda: {"result": rk.continue_orbit(orbit(), "amplitude", (6.5, 7.5))},
         "orbits": lambda: {"result": made("find_orbits")},
         "basins": lambda: {"result": made("basin_map")},
         "convergence": lambda: {"result": made("lyapunov")},
+        "slip": lambda: {"result": made("slide")},
+        "first_motion": lambda: {"block": BLOCK},
         "manifolds": lambda: {"result": made("saddle_manifolds")},
         "overturning": lambda: {"result": made("overturning_amplitude")},
         "spectrum": lambda: {"result": made("spectral_density")},

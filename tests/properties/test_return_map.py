@@ -10,17 +10,14 @@ from oracles.arcs import arcs
 from oracles.crossing import first_events
 from oracles.distance import Arc
 from rocking.kernels import event_kinds
-from rocking.kernels.classify import workspace
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic import bracket, next_event
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters, parameters_from_row
-from rocking.kernels.forcing.harmonic.solution import arc_from, propagator_or_none
-from rocking.kernels.march.initial_state import UNKNOWN, begin_march
-from rocking.kernels.march.march import DONE, march
-from rocking.kernels.march.progress import Recording
-from rocking.kernels.march.tangent import TangentState
-from rocking.kernels.orbits import fixed_point, newton_search
+from rocking.kernels.arc import fast_search_cosine, first_zero_cosine
+from rocking.kernels.arc.slender_cosine import arc_from, propagator_or_none
+from rocking.kernels.classify import cascade
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.motion.march import DONE, UNKNOWN, Recording, begin_march, march
+from rocking.kernels.motion.tangent import TangentState
+from rocking.kernels.orbits import return_map
+from rocking.kernels.system import harmonic_parameters, slender_of_row
 
 # Its kernels are compiled once, for half a minute.
 pytestmark = pytest.mark.long
@@ -33,17 +30,17 @@ ROUNDING = 1e-13
 LONG = 16.0
 
 
-@njit(**KERNEL)
+@kernel
 def images(systems, starts, periods, mirrored, nothing, columns, out):
-    """Map each state by ``newton_search``, with the waits of a state nearby, as Newton's method does: (certain, Θ, Θ')."""
+    """Map each state by ``return_map``, with the waits of a state nearby, as Newton's method does: (certain, Θ, Θ')."""
     for k in range(len(systems)):
-        mapping = newton_search.return_map(parameters_from_row(systems[k]), periods[k], mirrored)
+        mapping = return_map.return_map(slender_of_row(systems[k]), periods[k], mirrored)
         recording = Recording(0.0, nothing.section, nothing.events, False, False)
         waits = UNKNOWN
         for beside in (0.5, 0.8, 1.0):
-            guess = fixed_point.Guess(beside * starts[k, 0], beside * starts[k, 1], waits)
+            guess = return_map.Guess(beside * starts[k, 0], beside * starts[k, 1], waits)
             state = TangentState(columns, nothing.tangent.growth)
-            image = fixed_point.image_after(mapping, guess, recording, state)
+            image = return_map.image_after(mapping, guess, recording, state)
             waits = image.waits
         out[k, 0], out[k, 1], out[k, 2] = (
             image.certain,
@@ -87,7 +84,7 @@ def test_map_of_the_search_is_that_of_the_plain_march(mirrored, braced):
     systems, starts = random_systems(STATES, braced, 33)
     random = np.random.default_rng(5)
     periods = random.choice([1, 3, 5, 7] if mirrored else [1, 2, 3, 4, 5, 6, 7], STATES)
-    memory, found = workspace.make_workspace(1, 1), np.empty((STATES, 3))
+    memory, found = cascade.make_workspace(1, 1), np.empty((STATES, 3))
     images(systems, starts, periods, mirrored, memory.nothing, memory.trial, found)
     wrong, tight, stayed = [], 0, 0
     for k, (system, start, period) in enumerate(zip(systems, starts, periods.tolist(), strict=True)):
@@ -113,22 +110,22 @@ def test_map_of_the_search_is_that_of_the_plain_march(mirrored, braced):
     assert not wrong, f"{len(wrong)} of {stayed}; the first: {wrong[:2]}"
 
 
-@njit(**KERNEL)
+@kernel
 def first_event(p, period, mirrored, side, angle, velocity, guess):
     """Return (ψ at the start, event, time) of the first event of an arc as the search finds it from a guess of the time."""
-    q, _, start, _ = newton_search.return_map(p, period, mirrored)
+    q, _, start, _ = return_map.return_map(p, period, mirrored)
     arc = arc_from(q, side, start, angle, velocity)
-    coming, _ = next_event.next_event(q, event_kinds.FLIGHT, arc, propagator_or_none(q, guess))
+    coming, _ = first_zero_cosine.next_event(q, event_kinds.FLIGHT, arc, propagator_or_none(q, guess))
     return arc.constants.psi, coming.event, coming.wait
 
 
-@njit(**KERNEL)
+@kernel
 def is_certified(p, period, mirrored, arc, time, rate):
     """Return whether the search would accept a zero of u as the first."""
-    q, _, start, _ = newton_search.return_map(p, period, mirrored)
+    q, _, start, _ = return_map.return_map(p, period, mirrored)
     side, angle, velocity = arc
     flight = arc_from(q, side, start, angle, velocity)
-    return bracket.stays_clear(q, flight, bracket.Jet(time, 0.0, rate, 0.0, 0.0))
+    return fast_search_cosine.stays_clear(q, flight, fast_search_cosine.Jet(time, 0.0, rate, 0.0, 0.0))
 
 
 MAPS = [(1, False), (2, False), (3, False), (5, False), (1, True), (3, True), (5, True)]

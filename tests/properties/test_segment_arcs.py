@@ -8,13 +8,11 @@ from flint import arb
 
 from oracles.segment_arcs import AMBIGUOUS, ROUNDING, Arc, arcs, first_events, lowest_dip, size, state_at
 from rocking.kernels import event_kinds
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.drives import SampledDrive
-from rocking.kernels.forcing.sampled.parameters import sampled_parameters
-from rocking.kernels.forcing.sampled.search import first_event
-from rocking.kernels.forcing.sampled.solution import arc_at_place
-from rocking.kernels.forcing.sampled.tables import tables_of
+from rocking.kernels.arc.search_samples import first_event
+from rocking.kernels.arc.slender_samples import arc_at_place
+from rocking.kernels.base.samples import SampledDrive, tables_of
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.system import sampled_system, slender_block
 
 # 22,000 arcs; 50 times as many in the long test.
 COUNTS = {
@@ -30,7 +28,7 @@ LONG_CHUNKS = 50
 KINDS = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace", event_kinds.NONE: "none"}
 
 
-@njit(**KERNEL)
+@kernel
 def event_of(p, side, index, offset, angle, velocity):
     coming, extremes = first_event(
         p, arc_at_place(p, side, 0.0, angle, velocity, SampledDrive(index, offset))
@@ -48,7 +46,7 @@ def event_of(p, side, index, offset, angle, velocity):
 
 
 def search_from(arc):
-    p = sampled_parameters(tables_of(arc.values, arc.step), 1.0, 64 * arc.step, 0.9, arc.brace)
+    p = sampled_system(slender_block(0.9, arc.brace), tables_of(arc.values, arc.step), 1.0, 64 * arc.step)
     return event_of(p, arc.side, arc.index, arc.offset, arc.angle, arc.velocity)
 
 

@@ -8,9 +8,10 @@ import pytest
 import rocking as rk
 from oracles.motion import simulate as brute_force
 from rocking.kernels import event_kinds
-from rocking.kernels.forcing.harmonic import next_event
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.forcing.harmonic.solution import arc_from
+from rocking.kernels.arc import first_zero_cosine
+from rocking.kernels.arc.slender_cosine import arc_from
+from rocking.kernels.block import rest
+from rocking.kernels.system import harmonic_parameters
 
 
 def _case(A, T, e, N, phi=0.0, start=(0.0, 0.0), brace=None, r=None):
@@ -98,18 +99,18 @@ def test_who_comes_back_to_a_brace_before_the_clock_has_moved_waits_for_the_next
     for amplitude in 0.5000000004857583 + 1e-12 * np.arange(-20, 20):
         p = harmonic_parameters(amplitude, 2.0 * math.pi / period, period, phase, 0.5, 1.5, 0.0)
         last, beyond = 2.55095190, 2.55095391
-        assert not next_event.stays_leaning(p, arc_from(p, 1, last, 1.5, 0.0))
-        assert next_event.stays_leaning(p, arc_from(p, 1, beyond, 1.5, 0.0))
+        assert not rest.stays_leaning(p, arc_from(p, 1, last, 1.5, 0.0))
+        assert rest.stays_leaning(p, arc_from(p, 1, beyond, 1.5, 0.0))
         while beyond - last > math.ulp(last):
             start = 0.5 * (last + beyond)
-            stays = next_event.stays_leaning(p, arc_from(p, 1, start, 1.5, 0.0))
+            stays = rest.stays_leaning(p, arc_from(p, 1, start, 1.5, 0.0))
             last, beyond = (last, start) if stays else (start, beyond)
         arc = arc_from(p, 1, last, 1.5, 0.0)
-        coming = next_event.any_event(p, event_kinds.FLIGHT, arc)
+        coming = first_zero_cosine.any_event(p, event_kinds.FLIGHT, arc)
         assert coming.event == event_kinds.BRACE
         if last + coming.wait == last:
             found += 1
-            assert next_event.any_event(p, event_kinds.LEAN, arc).wait > 0.99 * period
+            assert first_zero_cosine.any_event(p, event_kinds.LEAN, arc).wait > 0.99 * period
     assert found > 0
 
 

@@ -19,6 +19,8 @@ RECORDS = {
     "push.csv": "time (s), acceleration (m/s²)\n0, 0\n0.5, 12\n1, 0\n",
     "gentle.csv": "time (s), acceleration (m/s²)\n0, 0\n0.5, 1\n1, 0\n",
     "bare.txt": "0\n4\n-4\n0\n",
+    "times.txt": "# s\n"
+    + "\n".join(map(str, (5.83, 13.62, 19.59, 24.37, 28.29, 31.53, 34.24, 36.52, 38.44))),
     "wave.txt": "\n".join(map(str, WAVE)),
     "set/a.AT2": "\n".join(write.peer(WAVE)),
     "set/b.AT2": "\n".join(write.peer(-0.5 * WAVE)),

@@ -7,17 +7,16 @@ import pytest
 
 from rocking.kernels.classify import approach
 from rocking.kernels.classify.periodicity import BENT
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.march.tangent import Tangent
-from rocking.kernels.orbits.fixed_point import FixedPoint, MapImage
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.motion.tangent import Tangent
+from rocking.kernels.orbits.return_map import FixedPoint, MapImage
 
 RETURNS = 3_000
 FAR = 10.0
 REAL, COMPLEX, BALL = range(3)
 
 
-@njit(**KERNEL)
+@kernel
 def excess(which, bend, tangent, first, second, x, y):
     """Return the terms over their limit; the multipliers are real, or ``first`` +- i ``second``."""
     if which == REAL:
@@ -27,7 +26,7 @@ def excess(which, bend, tangent, first, second, x, y):
     return approach.excess_in_ball(bend, tangent, max(abs(first), abs(second)), x, y, 0.0)
 
 
-@njit(**KERNEL)
+@kernel
 def slow_part_shrinks(section, row, tangent, rho, sigma):
     image = MapImage(True, 0.0, 0.0, tangent, 2, 0, math.nan, (0.0, 0.0))
     return approach.slow_part_shrinks(
@@ -127,7 +126,7 @@ def test_terms_for_complex_multipliers_are_those_of_the_coordinates_that_remove_
         assert found == pytest.approx(expected, rel=1e-9, abs=0.0)
 
 
-@njit(**KERNEL)
+@kernel
 def from_returns(section, tangent):
     image = MapImage(True, 0.0, 0.0, tangent, 2, 0, math.nan, (0.0, 0.0))
     return approach.curvature_of_returns(section, 3, 1, FixedPoint(True, 0.0, 0.0, image, 0.0, 0.0, 0))

@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -16,9 +17,9 @@ COMMANDS = {
     + ["study"] * bool(command.report)
     for command in TABLE
 }
-WITHOUT = {"explore", "paper", "cite"}
-"""Commands that compute nothing from options."""
-SILENT = {"lyapunov"}
+WITHOUT = {"assess", "explore", "paper", "cite"}
+"""Commands that compute nothing from their options alone."""
+SILENT = {"lyapunov", "fit-restitution", "slide"}
 """Commands that do not warn of the block."""
 BLOCK = "--height 190 --width 70"
 SHAKEN = f"{BLOCK} --acceleration 4 --frequency-hz 0.12"
@@ -26,6 +27,7 @@ PUSHED = f"push.csv {BLOCK}"
 LINES = {
     "simulate": f"{SHAKEN} --restitution 0.8 --phase 0.2 --brace-angle 0.9 --angle 0.1 --velocity 0.1 --cycles 5",
     "record": f"{PUSHED} --restitution 0.8 --inertia-ratio 1.4 --angle 0.1 --scale 1.5 --baseline mean",
+    "slide": "push.csv --friction 0.2 --scale 1.5 --baseline mean",
     "spectrum": f"{PUSHED} --size 1:150:3 --pga-g 0.5 --restitution 0.8 --inertia-ratio 1.4",
     "classify": f"{SHAKEN} --phase 0.2 --max-cycles 500 --max-period 8",
     "lyapunov": f"{SHAKEN} --cycles 40 --transient 3",
@@ -35,16 +37,19 @@ LINES = {
     "safe-basin": f"{BLOCK} --acceleration 4:5:2 --frequency-hz 0.12 --angle=-0.5:0.5 --samples 20 --seed 3",
     "overturning": f"{BLOCK} --acceleration 4:9:4 --frequency-hz 0.12:0.14:2 --phases 2 --max-cycles 50",
     "overturning-set": f"{PUSHED} --pga-g 0.5:2:9 --polarity=-1 --angle 0.1 --baseline mean",
+    "ida": f"{PUSHED} --pga-g 0.5:2:4 --polarity worse --angle 0.1",
     "overturning-spectrum": f"--pulse one-sine {BLOCK} --acceleration-g 0.5:1:3 --frequency-hz 0.1:0.2:2",
     "fragility": f"{PUSHED} --pga-g 0.5:2:4 --limit 0.1 --limit 0.5 --samples 3 --width-spread 0.1 --replicates 100",
     "sensitivity": f"{PUSHED} --pga-g 0.5:2:4 --seed 3 --restitution 0.8",
+    "fit-restitution": f"times.txt {BLOCK}",
     "orbits": f"{SHAKEN} --max-period 1 --effort 0.05 --seed 3",
     "continue": f"{SHAKEN.replace('4 ', '4:3.9 ')} --at 3.95 --step 0.1",
     "frequency-response": f"{BLOCK} --acceleration 4 --frequency-hz 0.12:0.13:2 --modes 1 --step 0.1",
     "orbit-diagram": f"{SHAKEN.replace('4 ', '4:5:3 ')} --sweep up --cycles 5 --transient 10 --section-phase 1",
 }
 """A cheap run of each command, of a block that is too tall and not slender."""
-SOURCE = {command: "push.csv" for command in LINES if {"file", "sources"} & set(COMMANDS[command])}
+SHAKEN_BY_RECORDS = {command: "push.csv" for command in LINES if {"file", "sources"} & set(COMMANDS[command])}
+SOURCE = SHAKEN_BY_RECORDS | {"fit-restitution": "times.txt"}
 FILES = {"plot": "a.svg", "animate": "a.gif", "csv": "a1.csv", "netcdf": "a.nc"}
 
 
@@ -70,7 +75,8 @@ def test_each_command_has_rows_and_each_that_computes_reads_a_study_file_and_wri
 @pytest.mark.parametrize("command", LINES)
 def test_files_are_written_and_named_and_the_block_is_warned_of(rocking, command):
     files, before = outputs(command, "plot", "csv", "netcdf"), set(Path().iterdir())
-    code, message, out = rocking(typed(command, *files))
+    slender = " --model slender --normalised-by angle" if "normalised_by" in COMMANDS[command] else ""
+    code, message, out = rocking(typed(command, *files) + slender)
     assert (code, message) == (0, "")
     assert out.splitlines()[-len(files) :] == [f"wrote {path}" for path in files.values()]
     assert {str(path) for path in set(Path().iterdir()) - before} == set(files.values())
@@ -129,11 +135,11 @@ def test_study_states_the_options_and_typed_ones_take_precedence(rocking, comman
 
 @pytest.mark.parametrize("command", LINES)
 def test_all_errors_of_a_study_file_are_one_line_that_lists_the_keys(rocking, command):
-    files = outputs(command, *FILES)
-    Path("study.toml").write_text("zzz = 1\nwidth = '2'\n" + "".join(f"{name} = 3\n" for name in files))
+    files, size = outputs(command, *FILES), "width" if "width" in COMMANDS[command] else "friction"
+    Path("study.toml").write_text(f"zzz = 1\n{size} = '2'\n" + "".join(f"{name} = 3\n" for name in files))
     code, message, out = rocking(f"{command} {SOURCE.get(command, '')} --study study.toml")
     told, _, keys = message.partition("; keys of this command: ")
-    wrong = ["width must be a number", *(f"{name} must be a path; got 3" for name in files)]
+    wrong = [f"{size} must be a number", *(f"{name} must be a path; got 3" for name in files)]
     assert (code, out) == (2, "")
     assert told.startswith("study 'study.toml': ")
     assert told.count(" must ") + told.count("unknown ") == len(wrong) + 1
@@ -146,6 +152,7 @@ def test_all_errors_of_a_study_file_are_one_line_that_lists_the_keys(rocking, co
         "json",
         "file",
         "sources",
+        "times",
     }
 
 
@@ -216,19 +223,23 @@ def test_link_to_an_output_that_is_not_there_yet_is_refused_and_so_is_the_file_o
     assert (done.returncode, done.stderr) == (2, told)
 
 
-@pytest.mark.parametrize("command", SOURCE)
+@pytest.mark.parametrize("command", SHAKEN_BY_RECORDS)
 def test_no_record_is_overwritten(rocking, monkeypatch, command):
-    computes = (
-        "motion.simulate"
-        if command == "record"
-        else "survey." + {"spectrum": "spectra"}.get(command, command.replace("-", "_"))
-    )
+    special = {
+        "record": "motion.simulate",
+        "slide": "motion.sliding",
+        "spectrum": "survey.spectra",
+        "ida": "survey.incremental_dynamic_analysis",
+    }
+    computes = special.get(command, f"survey.{command.replace('-', '_')}")
+    import_module(f"rocking.{computes}")
     monkeypatch.setattr(f"rocking.{computes}", None)
     Path("sub").mkdir()
     Path("push.csv").replace("sub/a.csv")
     Path("table.csv").write_text("file,scale\nsub/a.csv,0.5\n")
-    for source in ("sub/a.csv",) if command == "record" else ("sub/a.csv", "sub", "table.csv"):
-        what = "the record" if command == "record" else "a record"
+    one = "file" in COMMANDS[command]
+    for source in ("sub/a.csv",) if one else ("sub/a.csv", "sub", "table.csv"):
+        what = "the record" if one else "a record"
         told = f"--csv must not overwrite {what}; got 'sub/a.csv'"
         line = LINES[command].replace("push.csv", source)
         assert rocking(f"{command} {line} --csv sub/a.csv") == (2, told, "")
@@ -265,6 +276,9 @@ REFUSED = {
         f"--amplitude 2 {N} --model full": "--model needs a block in SI: give --critical-angle with normalised input",
         f"{SI} --acceleration 3 --period-s 1 --critical-angle 0.2": "--critical-angle is normalised: with --height and --width",
         f"--amplitude 2 {N} --cycles 0": "--cycles must be a whole number in [1, 1000000000]; got 0",
+        f"--amplitude 2 {N} --friction 0.3": "--friction needs a block in SI: give --height and --width",
+        f"{SI} --acceleration 3 --period-s 1 --friction 11": "--friction must lie in [0.001, 10]; got 11",
+        f"{SI} --acceleration 3 --period-s 1 --friction 0.3 --cycles 1e6": "--cycles must be at most 100000 with --friction; got 1000000.0",
         f"--amplitude 2 {N} --cycles 1e6 --csv a.csv": "--cycles must be at most 100000 with --csv; got 1000000.0",
         f"--pulse one-sine --amplitude 2 {N} --cycles 5": "--cycles belongs to harmonic motion: omit it with --pulse",
         f"--pulse one-sine --amplitude 2 {N} --phase 1": "--phase belongs to harmonic motion: omit it with --pulse",
@@ -279,7 +293,7 @@ REFUSED = {
         f"bare.txt {SI}": "bare.txt: the file does not state the unit of its samples; give it, for example --units='m/s²'",
         f"bare.txt {SI} --units g": "bare.txt: the file does not state its time step; give it, for example --step=0.01",
         f"bare.txt {SI} --units feet": "--units must be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'; got 'feet'",
-        f"push.csv {SI} --step 0.1": "push.csv: the file states its time step, 0.5; do not give --step",
+        f"push.csv {SI} --step 0.1": "push.csv: the times give a step of 0.5 s; omit --step, or correct the times",
         f"push.csv {SI} --channel 2": "--channel must be 1 to 1, the channels of push.csv; got 2",
         f"push.csv {SI} --baseline cubic": "--baseline must be one of 'none', 'mean', 'linear', 'quadratic'; got 'cubic'",
         f"push.csv {SI} --scale nan": "--scale must be a finite real number of size up to 1e+06; got nan",
@@ -288,7 +302,18 @@ REFUSED = {
         f"push.csv {SI} --pga-g=-1": "--pga-g must lie in [1e-09, 100000] g; got -1",
         f"push.csv {SI} --inertia-ratio 0.5": "--inertia-ratio must lie in [1, 10]; got 0.5",
         f"push.csv {SI} --restitution 2": "--restitution must lie in [0, 1]; got 2",
+        f"push.csv {SI} --friction 0": "--friction must lie in [0.001, 10]; got 0",
         "push.csv --height 2": "missing --width: give --height and --width",
+    },
+    "slide": {
+        "--friction 0.3": "Missing argument 'FILE'.",
+        "push.csv": "missing --friction",
+        "push.csv --friction 0": "--friction must lie in [0.001, 10]; got 0",
+        "push.csv --friction=-0.3": "--friction must lie in [0.001, 10]; got -0.3",
+        "push.csv --friction nan": "--friction must lie in [0.001, 10]; got nan",
+        "push.csv --friction 0.3 --scale 0": "--scale must not be 0; got 0 (omit it for the record as it is)",
+        "push.csv --friction 0.3 --scale 2 --pga-g 1": "give --scale or --pga-g, not both",
+        "push.csv --friction 0.3 --csv push.csv": "--csv must not overwrite the record; got 'push.csv'",
     },
     "spectrum": {
         "push.csv": "missing --size and --slenderness-deg: give --size and --slenderness-deg, or --height and --width",
@@ -337,8 +362,10 @@ REFUSED = {
         f"{MAP} --store a.zarr --symbols 12 --plot a.png": "--symbols must be one of 'kinds', '10', '11', '13b'; got '12'",
         f"{MAP} --store a.zarr --curves melnikov": "--curves needs a plot: give --plot FILE as well",
         f"{MAP} --store a.zarr --symbols 11 --tiles map": "--symbols needs a plot: give --plot FILE as well",
-        f"{MAP} --store a.zarr --curves melnikov --plot a.png --brace-angle 0.3": "--curves must lie over a map of a block without "
-        "braces; got 'brace_angle = 0.3'",
+        f"{MAP} --store a.zarr --curves melnikov --plot a.png --brace-angle 0.3": "--curves must lie over a map of a slender, "
+        "symmetric block without braces; got 'brace_angle = 0.3'",
+        f"{MAP} --store a.zarr --curves melnikov --plot a.png --critical-angle 0.3": "--curves must lie over a map of a slender, "
+        "symmetric block without braces; got 'critical_angle = 0.3'",
         f"{MAP} --store a.zarr --curves melnikov --plot a.png --period 1 --angle=-1:1": "--curves must lie over ",
     },
     "basins": {
@@ -361,16 +388,25 @@ REFUSED = {
         f"{SI} --frequency-hz 1 --acceleration 3": "--acceleration must be an axis, START:STOP:COUNT with … got '3' (example: 1:3:60)",
     },
     "overturning-set": {
-        f"push.csv {SI}": "give exactly one of --scale, --pga, --pga-g, --pgv, --pgd, --arias, --pga-ratio, --pgv-ratio; got none",
-        f"push.csv {SI} --pga-g 0.1:1 --scale 1:2": "give exactly one of --scale, --pga, --pga-g, --pgv, --pgd, --arias, --pga-ratio, "
-        "--pgv-ratio; got --scale and --pga-g",
+        f"push.csv {SI}": "give exactly one of --scale, --pga, --pga-g, --pgv, --pgd, --arias, --cav, --pga-ratio, "
+        "--pgv-ratio, --sa; got none",
+        f"push.csv {SI} --pga-g 0.1:1 --scale 1:2": "give exactly one of --scale, --pga, --pga-g, --pgv, --pgd, --arias, --cav, "
+        "--pga-ratio, --pgv-ratio, --sa; got --scale and --pga-g",
+        f"push.csv {SI} --sa 1:9:9": "--sa needs --sa-period, too",
+        f"push.csv {SI} --pga-g 0.1:1:3 --sa-period 1": "--sa-period needs --sa, too",
+        f"push.csv {SI} --sa 1:9:9 --sa-period 0": "--sa-period must lie in [0.0001, 10000] s; got 0",
         f"push.csv {SI} --pga-g 0.5": "--pga-g must be an axis, START:STOP:COUNT with … got '0.5' (example: 1:3:60)",
         f"push.csv {SI} --pga-g 0:1:20": "--pga-g must hold two numbers or more in",
-        f"push.csv {SI} --pga-g 0.1:1 --polarity 2": "--polarity must be 1 or -1; got 2",
+        f"push.csv {SI} --pga-g 0.1:1 --polarity 2": '--polarity must be "+", "-", "both" or "worse", or 1, -1 or [-1, 1]; got 2',
         f"push.csv {SI} --pga-g 0.1:1 --units g": "push.csv: the header names m/s²; omit --units, or correct the header",
         f"push.csv {SI} --pga-g 0.1:1 --baseline cubic": "--baseline must be one of 'none', 'mean', 'linear', 'quad",
         f"bare.txt {SI} --pga-g 0.1:1": "bare.txt: the file does not state the unit of its samples; give it, for example --units=",
         f"push.csv push.csv {SI} --pga-g 0.1:1": "push.csv occurs 2 times; name each file once",
+    },
+    "ida": {
+        f"push.csv {SI}": "give exactly one of --scale, --pga, --pga-g, --pgv, ",
+        f"push.csv {SI} --pga-g 0.5": "--pga-g must be an axis, START:STOP:COUNT with … got '0.5' (example: 1:3:60)",
+        f"push.csv {SI} --scale 1:2:2 --polarity 2": '--polarity must be "+", "-", "both" or "worse", or 1, -1 or [-1, 1]; got 2',
     },
     "overturning-spectrum": {
         "--amplitude 1:9:9 --frequency 1:8:5 --restitution 0.9": "missing --pulse: give the form of the pulse, such as --pulse one-sine",
@@ -393,6 +429,18 @@ REFUSED = {
     "sensitivity": {
         f"push.csv {SI} --pga 1:2:2 --restitution 1": "the block must have a restitution in [0.02, 0.98]; got 1.0",
         f"push.csv {SI} --pga 1:2:2 --seed -1": "--seed must be a whole number in [0, 4294967295]; got -1",
+    },
+    "fit-restitution": {
+        "--height 2": "Missing argument 'FILE'.",
+        "nowhere.txt": "FILE must name a text file that can be read; got 'nowhere.txt' (No such file or directory)",
+        "gentle.csv": "FILE must hold times in s, and lines with #; got 'time'",
+        "times.txt --height 2": "missing --width: give --height and --width",
+        "times.txt --release 90": "--release must come before the first of FILE; got 90",
+        "times.txt --angle 0": "--angle must lie between 0 and 1, exclusive; got 0.0",
+        "times.txt --frequency-parameter 0": "--frequency-parameter must lie in [0.001, 10000]; got 0",
+        f"times.txt {SI} --frequency-parameter 2": "--frequency-parameter must be omitted with --height and --width, which",
+        "times.txt --model full": "--model must be 'slender' without a critical angle; got 'full' (give --height and --width)",
+        "times.txt --csv times.txt": "--csv must",
     },
     "orbits": {
         f"--amplitude 2 {N} --effort 0": "--effort must lie in [0.01, 1000]; got 0",
@@ -447,6 +495,12 @@ REFUSED = {
     "explore": {
         "--no-browser --port=-1": "--port must be a whole number in [0, 65535]; got -1",
         "--no-browser --port=abc": "--port must be a whole number in [0, 65535]; got abc",
+    },
+    "assess": {
+        "": "Missing argument 'FILE'.",
+        "nowhere.toml": "FILE must name a TOML file; got 'nowhere.toml': No such file or directory",
+        "push.csv": "FILE must name a TOML file; got 'push.csv': ",
+        "example --output bare.txt/here": "--output must be a folder that can be written; ",
     },
     "paper": {
         "99": "FIGURE must be among ",

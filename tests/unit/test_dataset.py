@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from rocking import Block, Braces, Harmonic, PiecewiseLinear, State, System, __version__, simulate
+from rocking import Block, Braces, Harmonic, PiecewiseLinear, Pulse, State, System, __version__, simulate
 
 BLOCK = Block(height=2.0, width=0.5)
 BRACED = System(
@@ -181,6 +181,14 @@ def test_motion_under_a_record_has_a_row_per_sample_and_no_cycles():
     assert (data.attrs["margin"], data.attrs["certified"]) == (pytest.approx(moved.margin), 1)
     assert (data.attrs["samples"], data.attrs["step"]) == (5, 1 / 64)
     assert "linear between samples" in data.attrs["comment"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "stated"), [("one-sine", "a piece of a cosine"), ("triangular", "linear between samples")]
+)
+def test_base_motion_of_a_pulse_is_stated_as_it_is(kind, stated):
+    moved = simulate(System(Pulse(kind, amplitude=2.0, duration=1.0), restitution=0.9))
+    assert stated in moved.to_xarray().attrs["comment"]
 
 
 def test_short_push_before_a_long_motion_does_not_fill_the_memory():

@@ -6,7 +6,8 @@ import sys
 import pytest
 
 import rocking as rk
-from rocking.kernels.entry_point import EntryPoint
+from rocking.assessment.tables import write_xlsx
+from rocking.kernels.library.export import EntryPoint
 from rocking.model.package import EXTRAS
 from rocking.papers.catalogue import YIM_LIN_1991
 from rocking.papers.report.reproduce import reproduce
@@ -25,6 +26,7 @@ NETCDF = "netCDF files need h5netcdf and h5py"
 FILM = "MP4 files need imageio-ffmpeg"
 EXPLORER = "the explorer needs Bokeh, h5netcdf, h5py and Jinja"
 REPORT = "the report needs Jinja and WeasyPrint"
+EXCEL = "XLSX files need openpyxl"
 PROOF = "proofs need python-flint"
 
 
@@ -44,6 +46,7 @@ PROOF = "proofs need python-flint"
         ("explorer", "bokeh", "explore --port 0 --no-browser", EXPLORER),
         ("report", "weasyprint", "paper", REPORT),
         ("report", "jinja2", lambda: reproduce(YIM_LIN_1991, "results"), REPORT),
+        ("excel", "openpyxl", lambda: write_xlsx("a.xlsx", []), EXCEL),
         ("proof", "flint", f"classify {RUN} --prove", PROOF),
         ("proof", "flint", lambda: rk.horseshoe(SYSTEM), PROOF),
         ("obspy", "obspy", f"record made/a.sac {BLOCK}", f"a.sac: a binary file; {TEXTS}; ObsPy reads more formats"),

@@ -22,7 +22,7 @@ from rocking.survey.fragility_curve import (
     two_level_weights,
     weighted_counts,
 )
-from rocking.survey.random_points import block_samples, fingerprint
+from rocking.survey.random_points import block_samples
 
 BLOCK = rk.Block(2.0, 0.5)
 LEVELS = np.linspace(2.0, 10.0, 9)
@@ -36,7 +36,7 @@ def records():
 
 @pytest.fixture(scope="module")
 def found(records):
-    return rk.fragility(records, BLOCK, LEVELS, limits=[0.1, 0.5])
+    return rk.fragility(records, BLOCK, LEVELS, limits=[0.1, 0.5], model="slender", normalised_by="angle")
 
 
 def plain_fit(levels, exceeding, rocking):
@@ -53,7 +53,9 @@ def plain_fit(levels, exceeding, rocking):
 
 def compared(records, count, seed):
     """Compare random runs of an uncertain block with single simulations; return the number of certified runs."""
-    found = rk.fragility(records, BLOCK, LEVELS, samples=5, seed=3, **SPREADS).dataset
+    found = rk.fragility(
+        records, BLOCK, LEVELS, samples=5, seed=3, **SPREADS, model="slender", normalised_by="angle"
+    ).dataset
     drawn = block_samples(RecordSet(records), BLOCK, 5, tuple(SPREADS.values()), 3)
     random, certified = np.random.default_rng(seed), 0
     for _ in range(count):
@@ -106,6 +108,26 @@ def test_fit_is_the_maximum_of_the_likelihood(found):
         assert fit.misfit == pytest.approx(np.abs(curve - data.fraction.values[number]).max(), abs=1e-6)
         assert fit.median_low < fit.median < fit.median_high
         assert fit.dispersion_low < fit.dispersion < fit.dispersion_high
+
+
+def test_fit_is_that_of_a_regression_over_all_runs():
+    """A second opinion: a probit line Φ(a + b ln x) through single runs, by BFGS with its gradient."""
+    given = {"limits": [0.3], "samples": 4, "width_spread": 0.1, "polarity": "both", "model": "slender"}
+    found = rk.fragility(rk.synthetic_ground_motions(15, seed=7), BLOCK, np.linspace(1.5, 9.0, 11), **given)
+    runs = found.dataset[["peak"]].to_dataframe()
+    runs = runs[runs.peak > 0.0]
+    places = np.log(runs.index.get_level_values("level").to_numpy())
+    for fit in found.fits:
+        signs = np.where(np.isinf(runs.peak) if math.isinf(fit.limit) else runs.peak > fit.limit, 1.0, -1.0)
+
+        def cost(line, signs=signs):
+            score = signs * (line[0] + line[1] * places)
+            pull = -signs * np.exp(norm.logpdf(score) - norm.logcdf(score))
+            return -norm.logcdf(score).sum(), np.array([pull.sum(), (pull * places).sum()])
+
+        a, b = minimize(cost, (0.0, 1.0), jac=True, method="BFGS", options={"gtol": 1e-8}).x
+        assert fit.median == pytest.approx(math.exp(-a / b), rel=1e-4)
+        assert fit.dispersion == pytest.approx(1.0 / b, rel=1e-4)
 
 
 def test_fit_of_two_levels_has_a_closed_form():
@@ -178,18 +200,18 @@ def test_counts_without_a_finite_maximum_have_no_fit(exceeding, bounds):
 
 
 def test_undetermined_fit_is_said_in_one_line(records):
-    weak = rk.fragility(records, BLOCK, [1.0, 2.0, 3.5], limits=())
+    weak = rk.fragility(records, BLOCK, [1.0, 2.0, 3.5], limits=(), model="slender")
     with pytest.raises(
         rk.TooShort, match="^no fit for overturning: no run shows overturning: add higher"
     ) as told:
         weak.fit()
     assert math.isnan(told.value.estimate.median)
     assert "no fit: no run shows overturning" in str(weak)
-    strong = rk.fragility(records, BLOCK, [30.0, 40.0], limits=())
+    strong = rk.fragility(records, BLOCK, [30.0, 40.0], limits=(), model="slender")
     assert str(strong).startswith(
         "overturning over PGA: no fit: all runs that rock show overturning: add lower"
     )
-    single = rk.fragility(records[0], BLOCK, LEVELS, limits=())
+    single = rk.fragility(records[0], BLOCK, LEVELS, limits=(), model="slender")
     assert single.fits[0].problem
     assert single.dataset.effective_records.values.tolist() == [[1.0] * 9]
 
@@ -197,7 +219,7 @@ def test_undetermined_fit_is_said_in_one_line(records):
 def test_order_of_the_records_is_of_no_importance(records):
     some = records[:7]
     given = {"limits": 0.5, "samples": 3, "seed": 5, **SPREADS}
-    one, other = (rk.fragility(each, BLOCK, LEVELS, **given) for each in (some, some[::-1]))
+    one, other = (rk.fragility(each, BLOCK, LEVELS, **given, model="slender") for each in (some, some[::-1]))
     assert one.fits == other.fits
     for name in ("fraction", "fraction_low", "fraction_high", "fit", "fit_low", "fit_high"):
         assert np.array_equal(one.dataset[name].values, other.dataset[name].values)
@@ -206,7 +228,9 @@ def test_order_of_the_records_is_of_no_importance(records):
 
 def test_same_seed_gives_the_same_result_and_another_seed_another(records):
     given = {"limits": (), "samples": 2, "width_spread": 0.2}
-    one, same, other = (rk.fragility(records[:5], BLOCK, LEVELS, **given, seed=k) for k in (1, 1, 2))
+    one, same, other = (
+        rk.fragility(records[:5], BLOCK, LEVELS, **given, seed=k, model="slender") for k in (1, 1, 2)
+    )
     assert np.array_equal(one.dataset.peak.values, same.dataset.peak.values)
     assert not np.array_equal(one.dataset.peak.values, other.dataset.peak.values)
 
@@ -218,8 +242,8 @@ def test_copies_of_a_record_are_refused(records):
         with pytest.raises(
             ValueError, match="records must hold independent motions; got 'copy, the same as synthetic 1'"
         ):
-            rk.fragility([first, second, named], BLOCK, LEVELS)
-    assert fingerprint(first) != fingerprint(second)
+            rk.fragility([first, second, named], BLOCK, LEVELS, model="slender")
+    assert first.fingerprint != second.fingerprint
 
 
 def test_samples_have_the_distributions_that_are_stated(records):
@@ -241,8 +265,12 @@ def test_samples_have_the_distributions_that_are_stated(records):
 def test_levels_relative_to_a_block_refer_to_the_nominal_one(records):
     lift_off = GRAVITY * math.tan(BLOCK.critical_angle)
     given = {"limits": (), "samples": 3, "width_spread": 0.2}
-    ratio = rk.fragility(records[:4], BLOCK, [1.0, 2.0, 3.0], intensity="pga-ratio", **given).dataset
-    pga = rk.fragility(records[:4], BLOCK, np.array([1.0, 2.0, 3.0]) * lift_off, **given).dataset
+    ratio = rk.fragility(
+        records[:4], BLOCK, [1.0, 2.0, 3.0], intensity="pga-ratio", **given, model="slender"
+    ).dataset
+    pga = rk.fragility(
+        records[:4], BLOCK, np.array([1.0, 2.0, 3.0]) * lift_off, **given, model="slender"
+    ).dataset
     assert np.array_equal(np.isinf(ratio.peak), np.isinf(pga.peak))
     assert np.isinf(pga.peak).any()
     assert not np.isinf(pga.peak).all()
@@ -314,7 +342,9 @@ def coverage(population, sets, sizes, fitted):
     """Return the coverage of fractions per level, and of both parameters of the fit, for sets of each size."""
     levels = np.linspace(3.0, 10.0, 8)
     records = rk.synthetic_ground_motions(population, seed=3)
-    peaks = rk.incremental_dynamic_analysis(records, BLOCK, levels, intensity="pga").dataset.peak
+    peaks = rk.incremental_dynamic_analysis(
+        records, BLOCK, levels, intensity="pga", model="slender"
+    ).dataset.peak
     fell = np.isinf(peaks.transpose("record", "level").values)
     truth = fell.mean(axis=0)
     of_all = lognormal_fits(levels, fell.sum(axis=0)[None], np.full((1, 8), float(population)))
@@ -361,6 +391,39 @@ def test_intervals_cover_the_population():
             assert parts.min() >= 0.92
 
 
+def clustered_coverage(sets, as_records=False):
+    """Return the coverage of median and dispersion for 60 records whose five runs share a part of their capacity.
+
+    With `as_records` the runs are treated as independent.
+    """
+    median, between, within, levels = 5.0, 0.35, 0.2, np.geomspace(1.5, 15.0, 12)
+    truth = (median, math.hypot(between, within))
+    inside = np.zeros(2)
+    for seed in range(sets):
+        random = np.random.default_rng(seed)
+        capacity = between * random.standard_normal((60, 1)) + within * random.standard_normal((60, 5))
+        runs = levels > median * np.exp(capacity)[..., None]
+        runs = runs.reshape(300, 1, 12) if as_records else runs
+        rocking, weights = np.ones_like(runs), two_level_weights(*runs.shape[:2], 1000, random)
+        one = lognormal_fits(levels, runs.sum(axis=(0, 1))[None], rocking.sum(axis=(0, 1))[None])
+        many = lognormal_fits(levels, weighted_counts(runs, weights), weighted_counts(rocking, weights))
+        for place, (value, bounds) in enumerate(
+            ((one.median[0], many.median_bounds), (one.dispersion[0], many.dispersion_bounds))
+        ):
+            low, high = log_basic_interval(float(value), bounds, len(runs))
+            inside[place] += low <= truth[place] <= high
+    return inside / sets
+
+
+@pytest.mark.long
+@pytest.mark.timeout(1200)
+def test_intervals_of_sixty_records_cover_both_parameters_in_a_thousand_simulations():
+    inside, apart = clustered_coverage(1000), clustered_coverage(200, as_records=True)
+    print(f"median {inside[0]:.3f}, dispersion {inside[1]:.3f}; as independent runs {apart}")
+    assert np.abs(inside - 0.95).max() <= 0.03
+    assert apart.max() < 0.9
+
+
 def test_limits_that_are_not_there_have_no_fit(found):
     assert found.fit(0.5) is found.fits[1]
     with pytest.raises(ValueError, match=re.escape("limit must be one of 0.1, 0.5, inf; got 0.3")):
@@ -379,13 +442,15 @@ def test_one_line_says_median_dispersion_and_runs(found):
 def test_a_store_keeps_the_runs(records, tmp_path):
     given = {"limits": (), "samples": 2, "width_spread": 0.1}
     folder = tmp_path / "runs"
-    kept = rk.fragility(records[:4], BLOCK, LEVELS, **given, store=folder)
-    again = rk.fragility(records[:4], BLOCK, LEVELS, **given, store=folder)
-    plain = rk.fragility(records[:4], BLOCK, LEVELS, **given)
+    kept = rk.fragility(records[:4], BLOCK, LEVELS, **given, store=folder, model="slender")
+    again = rk.fragility(records[:4], BLOCK, LEVELS, **given, store=folder, model="slender")
+    plain = rk.fragility(records[:4], BLOCK, LEVELS, **given, model="slender")
     for each in (again, plain):
         assert np.array_equal(kept.dataset.peak.values, each.dataset.peak.values)
     with pytest.raises(ValueError, match="store"):
-        rk.fragility(records[:4], BLOCK, LEVELS, **{**given, "width_spread": 0.2}, store=folder)
+        rk.fragility(
+            records[:4], BLOCK, LEVELS, **{**given, "width_spread": 0.2}, store=folder, model="slender"
+        )
 
 
 def test_fractions_that_hardly_grow_have_no_fit_and_no_warning():
@@ -397,7 +462,9 @@ def test_fractions_that_hardly_grow_have_no_fit_and_no_warning():
 
 
 def test_two_levels_show_no_misfit():
-    found = rk.fragility(rk.synthetic_ground_motions(12, seed=1), rk.Block(2.0, 0.5), [4.0, 6.0], limits=())
+    found = rk.fragility(
+        rk.synthetic_ground_motions(12, seed=1), rk.Block(2.0, 0.5), [4.0, 6.0], limits=(), model="slender"
+    )
     assert math.isnan(found.fit().misfit)
     assert "misfit" not in str(found)
 
@@ -405,10 +472,10 @@ def test_two_levels_show_no_misfit():
 @pytest.mark.parametrize("levels", [[[1.0], [2.0, 3.0]], [[1.0, 2.0]], [None], ["1"]])
 def test_what_is_no_array_of_levels_is_refused(levels):
     with pytest.raises((TypeError, ValueError), match="^levels must "):
-        rk.fragility(rk.synthetic_ground_motions(3, seed=1), rk.Block(2.0, 0.5), levels)
+        rk.fragility(rk.synthetic_ground_motions(3, seed=1), rk.Block(2.0, 0.5), levels, model="slender")
 
 
 def test_one_level_may_come_with_an_index():
     records = rk.synthetic_ground_motions(3, seed=1)
-    found = rk.fragility(records, rk.Block(2.0, 0.5), pd.Series([2.0], index=[5]), limits=())
+    found = rk.fragility(records, rk.Block(2.0, 0.5), pd.Series([2.0], index=[5]), limits=(), model="slender")
     assert found.dataset.level.values.tolist() == [2.0]

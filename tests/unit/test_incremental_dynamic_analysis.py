@@ -21,14 +21,14 @@ def records():
 
 @pytest.fixture(scope="module")
 def found(records):
-    return rk.incremental_dynamic_analysis(records, BLOCK, LEVELS, intensity="pga")
+    return rk.incremental_dynamic_analysis(records, BLOCK, LEVELS, intensity="pga", model="slender")
 
 
 def test_peaks_are_those_of_single_simulations(records, found):
     fell = 0
     for number, record in enumerate(records):
         for place, level in enumerate(LEVELS):
-            motion = rk.simulate(BLOCK.system(record.scaled(pga=level)))
+            motion = rk.simulate(BLOCK.system(record.scaled(pga=level), model="slender"))
             run = found.dataset.isel(record=number, level=place)
             assert motion.certified
             assert int(run.certified)
@@ -41,11 +41,18 @@ def test_peaks_are_those_of_single_simulations(records, found):
 @pytest.mark.parametrize("angle, polarity", [(0.3, 1.0), (0.0, -1.0)])
 def test_start_and_direction_are_those_of_simulate(records, angle, polarity):
     data = rk.incremental_dynamic_analysis(
-        records[:4], BLOCK, [0.5, 1.0], angle=angle, polarity=polarity
+        records[:4],
+        BLOCK,
+        [0.5, 1.0],
+        angle=angle,
+        polarity=polarity,
+        model="slender",
     ).dataset
     for number, record in enumerate(records[:4]):
         for place, factor in enumerate((0.5, 1.0)):
-            motion = rk.simulate(BLOCK.system(record.scaled(factor * polarity)), rk.State(angle=angle))
+            motion = rk.simulate(
+                BLOCK.system(record.scaled(factor * polarity), model="slender"), rk.State(angle=angle)
+            )
             peak = math.inf if motion.outcome == "overturned" else motion.peak
             assert float(data.peak[number, place]) == pytest.approx(peak, rel=1e-6)
 
@@ -63,7 +70,7 @@ def test_fractiles_are_ranks_over_the_records(found):
 def test_fractiles_take_ranks_without_rounding():
     """0.07 · 100 is above 7 in double precision."""
     records = rk.synthetic_ground_motions(100, seed=2, duration=5.0)
-    found = rk.incremental_dynamic_analysis(records, BLOCK, [3.0, 4.0], intensity="pga")
+    found = rk.incremental_dynamic_analysis(records, BLOCK, [3.0, 4.0], intensity="pga", model="slender")
     assert found.fractiles(0.07).values[0].tolist() == np.sort(found.dataset.peak.values, axis=0)[6].tolist()
 
 
@@ -82,7 +89,7 @@ def test_scatter_is_half_the_logarithm_of_the_ratio_of_fractiles(found):
 
 
 def test_one_record_is_a_set_of_one():
-    found = rk.incremental_dynamic_analysis(rk.example_ground_motion(), BLOCK, [1.0, 10.0])
+    found = rk.incremental_dynamic_analysis(rk.example_ground_motion(), BLOCK, [1.0, 10.0], model="slender")
     assert found.dataset.peak.dims == ("record", "level")
     assert found.dataset.name.values.tolist() == ["San Francisco, 1295 Shafter, F, 360°"]
     assert found.fractiles(0.5).values.tolist() == found.dataset.peak.values.tolist()
@@ -105,11 +112,13 @@ def test_fractiles_of_no_fraction_are_refused(found, of):
 
 
 def overturns(motion, restitution):
-    return rk.simulate(rk.Block(2.0, 0.5, restitution).system(motion)).outcome == "overturned"
+    return (
+        rk.simulate(rk.Block(2.0, 0.5, restitution).system(motion, model="slender")).outcome == "overturned"
+    )
 
 
 def test_changes_are_those_of_single_simulations(records):
-    found = rk.sensitivity(records[:5], BLOCK, LEVELS, intensity="pga").dataset
+    found = rk.sensitivity(records[:5], BLOCK, LEVELS, intensity="pga", model="slender").dataset
     e = BLOCK.restitution
     for number, record in enumerate(records[:5]):
         for place, level in enumerate(LEVELS):
@@ -136,14 +145,16 @@ def test_changes_are_those_of_single_simulations(records):
 def test_change_of_an_energy_is_that_of_the_amplitude(records):
     """The Arias intensity grows with the square of the amplitude."""
     arias = [record.arias_intensity for record in records[:1]]
-    by_energy = rk.sensitivity(records[:1], BLOCK, np.array([1.0, 4.0]) * arias[0], intensity="arias")
-    by_factor = rk.sensitivity(records[:1], BLOCK, [1.0, 2.0])
+    by_energy = rk.sensitivity(
+        records[:1], BLOCK, np.array([1.0, 4.0]) * arias[0], intensity="arias", model="slender"
+    )
+    by_factor = rk.sensitivity(records[:1], BLOCK, [1.0, 2.0], model="slender")
     assert np.array_equal(by_energy.dataset.differs.values, by_factor.dataset.differs.values)
     assert np.array_equal(by_energy.dataset.overturned.values, by_factor.dataset.overturned.values)
 
 
 def test_where_nothing_changes_the_interval_is_that_of_all_records(records):
-    found = rk.sensitivity(records, BLOCK, [0.1, 0.2])
+    found = rk.sensitivity(records, BLOCK, [0.1, 0.2], model="slender")
     z2 = 1.959963984540054**2
     assert found.dataset.share_high.values == pytest.approx(z2 / (10 + z2))
     assert str(found).startswith(
@@ -156,9 +167,15 @@ def test_sensitivity_refuses_what_it_cannot_change(records):
     with pytest.raises(
         ValueError, match=re.escape("block must have a restitution in [0.02, 0.98]; got 0.99")
     ):
-        rk.sensitivity(records[:2], rk.Block(2.0, 0.5, 0.99), LEVELS, intensity="pga")
+        rk.sensitivity(records[:2], rk.Block(2.0, 0.5, 0.99), LEVELS, intensity="pga", model="slender")
     short = rk.GroundMotion([GRAVITY], step=0.1, name="short")
     with pytest.raises(ValueError, match="records must have two samples at least"):
-        rk.sensitivity([short], BLOCK, LEVELS, intensity="pga")
+        rk.sensitivity([short], BLOCK, LEVELS, intensity="pga", model="slender")
     with pytest.raises(ValueError, match="records must hold independent motions"):
-        rk.sensitivity([records[0], attrs.evolve(records[0], name="copy")], BLOCK, LEVELS, intensity="pga")
+        rk.sensitivity(
+            [records[0], attrs.evolve(records[0], name="copy")],
+            BLOCK,
+            LEVELS,
+            intensity="pga",
+            model="slender",
+        )

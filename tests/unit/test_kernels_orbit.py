@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.kernels.classify import periodicity, recurrence, workspace
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.march.initial_state import UNKNOWN
-from rocking.kernels.march.tangent import Tangent
-from rocking.kernels.orbits import fixed_point, floquet, mode_orbit, symmetric_mode
+from rocking.kernels.classify import cascade, periodicity
+from rocking.kernels.classify import section as sections
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.motion.march import UNKNOWN
+from rocking.kernels.motion.tangent import Tangent
+from rocking.kernels.orbits import floquet, modes, return_map
+from rocking.kernels.system import harmonic_parameters
 
 # Its kernels are compiled once, for most of a minute. The tests of the searches run the same code in the fast tests.
 pytestmark = pytest.mark.long
@@ -22,37 +23,37 @@ SYSTEM = harmonic_parameters(2.0, 2.0 * math.pi, 1.0, 0.0, 0.925)
 
 
 # Kernels have no way in from Python but through a compiled function.
-@njit()
+@kernel
 def closest_return(section, most_lag):
-    return recurrence.closest_return(section, len(section), most_lag)
+    return sections.closest_return(section, len(section), most_lag)
 
 
-@njit()
+@kernel
 def approached_by(p, section, most_lag):
-    return recurrence.approached(p, section, len(section), 0.0, most_lag)
+    return sections.approached(p, section, len(section), 0.0, most_lag)
 
 
 def approached(section, most_lag):
     return approached_by(SYSTEM, section, most_lag)
 
 
-@njit()
+@kernel
 def multipliers(a, b, c, d):
     return floquet.multipliers(Tangent(a, b, c, d))
 
 
-@njit()
+@kernel
 def adapted_norm(a, b, c, d, radius):
     return floquet.adapted_norm(Tangent(a, b, c, d), radius)
 
 
-@njit(error_model="numpy")
+@kernel
 def find_fixed_point(p, angle, velocity, cycles, memory):
-    found = fixed_point.find_fixed_point(
-        fixed_point.ReturnMap(p, cycles, 0.0, 1.0),
-        fixed_point.Guess(angle, velocity, UNKNOWN),
+    found = return_map.find_fixed_point(
+        return_map.ReturnMap(p, cycles, 0.0, 1.0),
+        return_map.Guess(angle, velocity, UNKNOWN),
         1 << 40,
-        fixed_point.NEARBY,
+        return_map.NEARBY,
         memory.trial,
         memory.nothing,
     )
@@ -62,17 +63,17 @@ def find_fixed_point(p, angle, velocity, cycles, memory):
     )  # fmt: skip
 
 
-@njit(error_model="numpy")
+@kernel
 def nearest(p, order, angle, velocity):
-    found = symmetric_mode.nearest(p, order, angle, velocity)
+    found = modes.nearest(p, order, angle, velocity)
     return found.distance, found.angle, found.velocity, found.since, found.half
 
 
-@njit(error_model="numpy")
+@kernel
 def compare(p, section, row, period, angle, velocity, a, b, c, d, impacts):
-    image = fixed_point.MapImage(True, angle, velocity, Tangent(a, b, c, d), impacts, 0, 0.0, UNKNOWN)
+    image = return_map.MapImage(True, angle, velocity, Tangent(a, b, c, d), impacts, 0, 0.0, UNKNOWN)
     return periodicity.compare(
-        p, section, row, period, fixed_point.FixedPoint(True, angle, velocity, image, 0.0, 0.0, 0)
+        p, section, row, period, return_map.FixedPoint(True, angle, velocity, image, 0.0, 0.0, 0)
     )
 
 
@@ -195,7 +196,7 @@ def mode_1_1(amplitude, period, e):
 def test_newtons_method_finds_the_mode_of_the_closed_form_with_its_multipliers(amplitude, period, e):
     p, (angle, velocity), trace = mode_1_1(amplitude, period, e)
     converged, *state, residual, error, work, tangent, impacts = find_fixed_point(
-        p, angle + 3e-3, velocity - 2e-3, 1, workspace.make_workspace(100, 8)
+        p, angle + 3e-3, velocity - 2e-3, 1, cascade.make_workspace(100, 8)
     )
     a, b, c, d = tangent
     assert converged
@@ -233,7 +234,7 @@ def test_of_the_three_states_of_a_mode_the_nearest_is_told(phase):
     p = harmonic_parameters(6.5, 2 * math.pi / 0.4, 0.4, phase, 0.925)
     _, *state, _, _ = nearest(p, 3, 0.0, 0.0)
     converged, *found, residual, _, _, _, impacts = find_fixed_point(
-        p, *state, 3, workspace.make_workspace(100, 8)
+        p, *state, 3, cascade.make_workspace(100, 8)
     )
     assert converged
     assert found == state
@@ -317,7 +318,7 @@ def test_of_a_motion_that_comes_no_nearer_nothing_is_foretold():
 
 def test_newtons_method_gives_up_where_the_block_overturns():
     p = harmonic_parameters(1.75, math.pi, 2.0, 0.0, 0.95)
-    assert not find_fixed_point(p, 0.9, 0.5, 3, workspace.make_workspace(100, 8))[0]
+    assert not find_fixed_point(p, 0.9, 0.5, 3, cascade.make_workspace(100, 8))[0]
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
@@ -328,7 +329,7 @@ def test_multipliers_by_trace_and_determinant_are_the_eigenvalues(mirrored):
     for _ in range(300):
         matrix = random.normal(size=(2, 2))
         half, determinant = 0.5 * float(np.trace(matrix)), float(np.linalg.det(matrix))
-        found = floquet.multipliers_plain(half, half * half - determinant, determinant, mirrored)
+        found = floquet.complex_multipliers(half, half * half - determinant, determinant, mirrored)
         expected = np.linalg.eigvals(matrix @ matrix if mirrored else matrix)
         order = (lambda value: -value.imag) if np.iscomplexobj(expected) else (lambda value: -abs(value))
         assert found == pytest.approx(
@@ -340,16 +341,16 @@ def test_multipliers_by_trace_and_determinant_are_the_eigenvalues(mirrored):
     assert 50 < pairs < 250
 
 
-@njit(error_model="numpy")
+@kernel
 def closed_and_marched(p, order, memory):
     """Return the fixed points of a mode by its closed form and by Newton's method, and whether the mode exists."""
-    mode = symmetric_mode.nearest(p, order, 0.0, 0.0)
-    guess = fixed_point.Guess(mode.angle, mode.velocity, (mode.half - mode.since, mode.half))
-    mapping = fixed_point.ReturnMap(p, order, 0.0, 1.0)
-    marched = fixed_point.find_fixed_point(
-        mapping, guess, 1 << 40, fixed_point.NEARBY, memory.trial, memory.nothing
+    mode = modes.nearest(p, order, 0.0, 0.0)
+    guess = return_map.Guess(mode.angle, mode.velocity, (mode.half - mode.since, mode.half))
+    mapping = return_map.ReturnMap(p, order, 0.0, 1.0)
+    marched = return_map.find_fixed_point(
+        mapping, guess, 1 << 40, return_map.NEARBY, memory.trial, memory.nothing
     )
-    closed = mode_orbit.orbit_of_mode(p, mode)
+    closed = modes.orbit_of_mode(p, mode)
     return (
         mode.distance < math.inf,
         closed.converged,
@@ -364,7 +365,7 @@ def closed_and_marched(p, order, memory):
 @pytest.mark.parametrize(("order", "true", "false"), [(1, 200, 0), (3, 40, 20), (5, 30, 0)])
 def test_mode_is_a_fixed_point_without_a_march_unless_an_impact_comes_earlier(order, true, false):
     """Closed form and march agree on the orbit and its derivative. Where they do not, the search finds an earlier impact."""
-    memory, random = workspace.make_workspace(1000, 64), np.random.default_rng(2)
+    memory, random = cascade.make_workspace(1000, 64), np.random.default_rng(2)
     seen = {True: 0, False: 0}
     for _ in range(1500):
         period = 10.0 ** random.uniform(-0.7, 0.6)

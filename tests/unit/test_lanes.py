@@ -8,33 +8,33 @@ import pytest
 
 from oracles import lanes as oracle
 from rocking.kernels import event_kinds
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic import next_event
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.forcing.harmonic.solution import arc_from
+from rocking.kernels.arc import first_zero_cosine
+from rocking.kernels.arc.slender_cosine import arc_from
 from rocking.kernels.lanes import state
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.numerics import elementary as standard
 from rocking.kernels.numerics import simd
+from rocking.kernels.system import harmonic_parameters
 
 pytestmark = pytest.mark.xdist_group("lanes")  # the kernels of the oracle are compiled once
 
 ULP = 2.0**-52
 
 
-@njit(**KERNEL)
+@kernel
 def elementary(rate, t):
-    return simd.both_exponentials(t), simd.hyperbolic(t), simd.circular(rate, t)
+    return standard.both_exponentials(t), simd.hyperbolic(t), simd.circular(rate, t)
 
 
-@njit(**KERNEL)
+@kernel
 def logarithms_of_ratios(a, b, c, d):
     return simd.logarithms_of_ratios(a, b, c, d)
 
 
-@njit(**KERNEL)
+@kernel
 def alone(p, side, start, velocity, angle=0.0):
     """The first event of an arc, as the functions for one block find it."""
-    return next_event.any_event(p, event_kinds.FLIGHT, arc_from(p, side, start, angle, velocity))
+    return first_zero_cosine.any_event(p, event_kinds.FLIGHT, arc_from(p, side, start, angle, velocity))
 
 
 def test_elementary_functions_have_full_relative_accuracy_however_short_the_arc():

@@ -9,16 +9,14 @@ import pytest
 from scipy.integrate import quad
 
 import rocking as rk
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.arc import Extremes
-from rocking.kernels.forcing.drives import SampledDrive
-from rocking.kernels.forcing.sampled.solution import arc_at_place
-from rocking.kernels.march.accumulated_error import Covariance
-from rocking.kernels.march.ending import ENDING_ROW
-from rocking.kernels.march.finite_motion import is_decided
-from rocking.kernels.march.finite_runs import RUN_ROW, run_batch
-from rocking.kernels.march.march import DONE, OVERTURNED
+from rocking.kernels.arc.arc import NO_EXTREMES, UNIT_RATE, Next, nothing_more, with_dip, with_low
+from rocking.kernels.arc.slender_samples import arc_at_place
+from rocking.kernels.base.samples import SampledDrive
+from rocking.kernels.event_kinds import IMPACT
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.motion.finite_motion import ENDING_ROW, RUN_ROW, is_decided, is_no_graze, run_batch
+from rocking.kernels.motion.march import DONE, OVERTURNED
+from rocking.kernels.motion.rounding_errors import Covariance
 from rocking.motion.march_loop import parameters
 
 # At the end of this motion the block is on its way back, with enough energy to overturn on the other side.
@@ -118,12 +116,50 @@ def test_a_graze_of_the_base_is_undecided():
     assert found(low - 1e-3).certified
 
 
-@njit(**KERNEL)
+@kernel
 def decided_with(p, low, variance_at_start, variance_at_event):
     arc = arc_at_place(p, 1, 0.0, 0.0, 2.0, SampledDrive(0, 0.0))
-    extremes = Extremes(math.inf, 0.0, low, 0.0)
+    extremes = with_low(NO_EXTREMES, low)
     at_start, at_event = Covariance(variance_at_start, 0.0, 0.0), Covariance(variance_at_event, 0.0, 0.0)
-    return is_decided(p, arc, extremes, at_start, at_event)
+    coming = nothing_more(1, arc.drive)
+    return is_decided(p, arc, coming, extremes, UNIT_RATE, at_start, at_event)
+
+
+@kernel
+def decided_with_dips(p, first, first_time, second, second_time, variance):
+    arc = arc_at_place(p, 1, 0.0, 0.0, 2.0, SampledDrive(0, 0.0))
+    extremes = with_dip(with_dip(NO_EXTREMES, first, first_time), second, second_time)
+    covariance = Covariance(variance, 0.0, variance)
+    return is_decided(p, arc, nothing_more(1, arc.drive), extremes, UNIT_RATE, covariance, covariance)
+
+
+def test_each_minimum_of_an_arc_must_exceed_the_error_there():
+    """Errors grow like e^t, so that a minimum that is not the least may be the one that is undecided."""
+    p = parameters(rk.System(rk.PiecewiseLinear([0.0, 0.0], step=0.1), 0.9))
+    least = 1e-6
+    deviation = least / 64
+    assert decided_with_dips(p, least, 0.0, least, 0.0, deviation**2)
+    assert not decided_with_dips(p, least, 0.0, 2 * least, 3.0, deviation**2)
+    assert not decided_with_dips(p, 2 * least, 3.0, least, 0.0, deviation**2)
+    assert decided_with_dips(p, least, 0.0, 100 * least, 3.0, deviation**2)
+
+
+@kernel
+def surely_met(p, speed, variance):
+    arc = arc_at_place(p, 1, 0.0, 0.0, 2.0, SampledDrive(0, 0.0))
+    coming = Next(0.05, IMPACT, 1, 0.0, -speed, SampledDrive(0, 0.05), 0.0, 0.0)
+    return is_no_graze(p, arc, coming, Covariance(variance, 0.0, 0.0))
+
+
+def test_impact_that_only_touches_the_base_is_undecided():
+    """The ground pushes the block off with u'' = 2, so that it would have sunk by v^2/4."""
+    p = parameters(rk.System(rk.PiecewiseLinear([-3.0, -3.0], step=0.1), 0.9))
+    speed = 1e-3
+    far, near = (speed**2 / 4 / (32 * factor) for factor in (1.001, 0.999))
+    assert surely_met(p, speed, far**2)
+    assert not surely_met(p, speed, near**2)
+    falling = parameters(rk.System(rk.PiecewiseLinear([0.0, 0.0], step=0.1), 0.9))
+    assert surely_met(falling, speed, near**2)
 
 
 def test_angle_that_rounding_may_have_taken_below_the_base_is_undecided():

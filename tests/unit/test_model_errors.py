@@ -170,6 +170,7 @@ ALLOWED = {
     "amplitude": 2.0, "angle": 0.5, "base_acceleration": 1.0, "block": BLOCK, "impacts": 2, "n": 1, "orbit": "upper", "period": 1.0,
     "phase": 0.5, "radians": 0.1, "radians_per_second": 0.1, "restitution": 0.8, "seconds": 0.5, "time": 0.5, "velocity": 0.5,
     "width": 1e-3, "height": 2e-3, "mass_ratio": 1.0, "critical_angle": 0.2, "fraction": 0.5, "duration": 1.0, "frequency": 2.0,
+    "other": rk.Block(4.0, 1.0), "friction": 0.3, "acceleration": 0.5, "inertia_ratio": 1.3,
     "start": 0.5, "ground": rk.GroundMotion([0.0, 1.0, 0.0], step=0.1), "rule": "fema-356", "kind": "one-sine",
 }  # fmt: skip
 THEORY = [
@@ -177,7 +178,7 @@ THEORY = [
     for function in (getattr(rk.theory, name) for name in rk.theory.__all__)
     if inspect.isfunction(function)
     for name in inspect.signature(function).parameters
-    if name not in ("block", "orbit", "ground", "rule", "kind")
+    if name not in ("block", "other", "orbit", "ground", "rule", "kind")
 ]
 
 

@@ -210,7 +210,7 @@ def test_a_system_is_made_again_of_its_quantities(system):
 
 
 def test_quantities_have_the_names_of_kernel_parameters():
-    from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
+    from rocking.kernels.system import harmonic_parameters
 
     assert sorted(quantities(BRACED)) == sorted(inspect.signature(harmonic_parameters).parameters)
     assert quantities(BRACED) == dict(

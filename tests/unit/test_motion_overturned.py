@@ -158,5 +158,5 @@ def test_full_block_is_shown_until_it_lies_flat_also_if_that_is_certain_only_lat
 )
 def test_figure_of_a_record_states_the_outcome(model, pga, expected):
     block, record = rk.Block(2.0, 0.5), rk.example_ground_motion()
-    motion = rk.simulate(block.system(record.scaled(pga=pga), model=model))
+    motion = rk.simulate(block.system(record.scaled(pga=pga), model=model, normalised_by="angle"))
     assert rk.plot.time_history(motion, block=block).get_title("right") == expected

@@ -1,12 +1,15 @@
 """Orbit diagrams against plain runs, and against a known period-doubling cascade."""
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 import rocking as rk
 from rocking.model.progress import Bar
+from rocking.orbits import sweeps
+from stored_surveys import files
 
 CASCADE = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
 MILD = rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925)
@@ -195,7 +198,7 @@ def test_dataset_names_everything_and_comes_back_from_a_file(tmp_path):
 
 def test_progress_counts_every_value_of_every_sweep(monkeypatch):
     done = []
-    monkeypatch.setattr(Bar, "advance", lambda bar, count: done.append(count))
+    monkeypatch.setattr(Bar, "advance", lambda bar, count, before: done.append(count))
     for sweep, times in (("both", 2), ("rest", 1)):
         done.clear()
         amplitudes = np.linspace(2, 5, 37)
@@ -240,3 +243,72 @@ def test_refusals_are_one_line(change, error, message):
     with pytest.raises(error, match=f"^{message}") as refused:
         rk.orbit_diagram(**given)
     assert "\n" not in str(refused.value)
+
+
+PARTS = {"amplitude": np.linspace(8.0, 11.5, 150), "transient": 100, "cycles": 4, "section_phase": 0.7}
+"""Values of three parts of 57 values at most with `parted`; some motions overturn."""
+
+
+@pytest.fixture
+def parted(monkeypatch):
+    """Parts of 6,000 cycles."""
+    monkeypatch.setattr(sweeps, "BREATH", 6_000)
+
+
+@pytest.mark.parametrize("sweep", ["up", "down", "both", "rest"])
+def test_diagram_in_parts_of_a_store_has_the_bits_of_the_one_in_memory(sweep, tmp_path, parted, monkeypatch):
+    given = PARTS | {"sweep": sweep}
+    with monkeypatch.context() as patch:
+        patch.setattr(sweeps, "BREATH", 10**9)
+        plain = rk.orbit_diagram(CASCADE, rk.State(0.1, 0.2), **given)
+    monkeypatch.setattr(
+        sweeps, "TASKS", 1
+    )  # the parts of independent motions are as small as those of a sweep
+    stored, read = (rk.orbit_diagram(CASCADE, rk.State(0.1, 0.2), **given, store=tmp_path) for _ in range(2))
+    monkeypatch.setattr(sweeps, "TASKS", 8)
+    with ThreadPoolExecutor(3) as threads:
+        computed = rk.orbit_diagram(CASCADE, rk.State(0.1, 0.2), **given, executor=threads)
+    assert plain.overturned.any()
+    for other in (stored, read, computed):
+        assert other.to_xarray().identical(plain.to_xarray())
+    assert len(list(tmp_path.glob("part-*"))) == 3
+
+
+def test_store_of_many_long_motions_has_no_more_parts_than_allowed(tmp_path, parted, monkeypatch):
+    monkeypatch.setattr(sweeps, "MAX_PARTS", 2)
+    diagram = rk.orbit_diagram(CASCADE, **PARTS, store=tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["part-0", "part-1"]
+    assert diagram.to_xarray().identical(rk.orbit_diagram(CASCADE, **PARTS).to_xarray())
+
+
+@pytest.mark.parametrize(
+    ("changed", "differs"),
+    [
+        ({"transient": 99}, "transient is 100 there and 99 here"),
+        ({"cycles": 5}, "cycles is 4 there and 5 here"),
+        ({"section_phase": 0.0}, "section_phase is 0.7 there and 0 here"),
+        ({"sweep": "up"}, "sweep is 'both' there and 'up' here"),
+        ({"start": rk.State(0.1)}, r"states is \[\[0.0, 0.0\], .*\] there and \[\[0.1, 0.0\], .*\] here"),
+        ({"amplitude": PARTS["amplitude"] + 1e-12}, r"the values of the parameter are others \("),
+        ({"amplitude": PARTS["amplitude"][:-1]}, r"the values of the parameter are others \("),
+        ({"system": with_value(CASCADE, "restitution", 0.7)}, "restitution is 0.8 there and 0.7 here"),
+    ],
+)
+def test_other_diagram_is_refused_and_leaves_the_store_as_it_was(tmp_path, parted, changed, differs):
+    diagram = {"system": CASCADE, "store": tmp_path} | PARTS
+    rk.orbit_diagram(**diagram)
+    before = files(tmp_path)
+    with pytest.raises(ValueError, match=f"holds a different survey: {differs}"):
+        rk.orbit_diagram(**diagram | changed)
+    assert files(tmp_path) == before
+
+
+def test_folder_of_something_else_is_no_store_of_a_diagram(tmp_path):
+    rk.find_orbits(MILD, 1, effort=0.01, store=tmp_path)
+    with pytest.raises(OSError, match=r"a folder that contains 'round-0'"):
+        rk.orbit_diagram(MILD, amplitude=[5.0, 5.5], store=tmp_path)
+
+
+def test_long_diagram_with_a_store_is_refused(tmp_path):
+    with pytest.raises(ValueError, match=r"^cycles must be a whole number in \[1, 1000000\]"):
+        rk.orbit_diagram(CASCADE, amplitude=8.0, cycles=1_000_001, store=tmp_path)

@@ -25,7 +25,10 @@ def push(duration, samples=(1.0, 1.0)):
 
 
 def overturns(found, record, level):
-    return rk.simulate(found.block.system(found.motion(record, level)), record="none").outcome == "overturned"
+    return (
+        rk.simulate(found.block.system(found.motion(record, level), model="slender"), record="none").outcome
+        == "overturned"
+    )
 
 
 def contains(intervals, level):
@@ -43,7 +46,9 @@ def standing(intervals, low=LEVELS[0], high=LEVELS[-1]):
 def test_rectangular_pulse_overturns_above_its_closed_form(duration, polarity):
     """A > 1/(1 − exp(−T)), the same as Housner (1963), eq. (9)."""
     motion = push(duration)
-    found = rk.overturning_set(motion, BLOCK, np.linspace(0.5, 8.0, 31), polarity=polarity)
+    found = rk.overturning_set(
+        motion, BLOCK, np.linspace(0.5, 8.0, 31), polarity=polarity, model="slender", normalised_by="angle"
+    )
     edge = -1 / math.expm1(-BLOCK.time(motion.step))
     (switch,) = found.switches
     assert switch["level"] == pytest.approx(edge, rel=1e-10)
@@ -61,7 +66,9 @@ def test_sampled_half_sine_approaches_its_threshold_with_the_square_of_the_step(
     errors = []
     for count in (100, 200, 400):
         wave = np.sin(np.pi * np.arange(count + 1) / count)
-        found = rk.overturning_set(push(math.pi / 2, wave), BLOCK, np.linspace(1.0, 3.0, 5))
+        found = rk.overturning_set(
+            push(math.pi / 2, wave), BLOCK, np.linspace(1.0, 3.0, 5), model="slender", normalised_by="angle"
+        )
         errors.append(found.lowest[0] - HALF_SINE)
     assert np.array(errors[:2]) / errors[1:] == pytest.approx(4.0, rel=0.02)
     assert abs(errors[-1]) < 1e-4
@@ -74,7 +81,9 @@ def several():
         motion.scaled(1.1 + 0.1 * k) for k, motion in enumerate(rk.synthetic_ground_motions(4, seed=11))
     ]
     blocks = [rk.Block(height, 0.22 * height) for height in (1.0, 2.0, 3.0)]
-    return [rk.overturning_set(records, block, LEVELS, intensity="pga-ratio") for block in blocks]
+    return [
+        rk.overturning_set(records, block, LEVELS, intensity="pga-ratio", model="slender") for block in blocks
+    ]
 
 
 def test_outcomes_on_both_sides_of_a_switch_differ_between_adjacent_doubles(several):
@@ -91,7 +100,9 @@ def test_mode_is_that_of_the_run_on_the_overturning_side(several):
     for found in several:
         for record, level, above, mode, *_ in found.switches.tolist():
             motion = rk.simulate(
-                found.block.system(found.motion(record, level if above else np.nextafter(level, 0.0)))
+                found.block.system(
+                    found.motion(record, level if above else np.nextafter(level, 0.0)), model="slender"
+                )
             )
             assert motion.outcome == "overturned"
             kinds = motion.events["kind"]
@@ -123,7 +134,9 @@ def test_random_levels_agree_except_in_intervals_narrower_than_the_grid(several)
             own = found.switches["level"][found.switches["record"] == record]
             known = np.sort(np.concatenate((LEVELS, own, np.nextafter(own, 0.0))))
             for level in rng.uniform(LEVELS[0], LEVELS[-1], 60):
-                run = rk.simulate(found.block.system(found.motion(record, level)), record="none")
+                run = rk.simulate(
+                    found.block.system(found.motion(record, level), model="slender"), record="none"
+                )
                 told, overturned = contains(intervals, level), run.outcome == "overturned"
                 total += 1
                 undecided += not run.certified
@@ -145,7 +158,7 @@ def compared_with_a_finer_grid(pairs, factor):
     fine_levels = np.linspace(LEVELS[0], LEVELS[-1], factor * (LEVELS.size - 1) + 1)
     for motion, block in pairs:
         coarse, fine = (
-            rk.overturning_set(motion, block, levels, intensity="pga-ratio").intervals()
+            rk.overturning_set(motion, block, levels, intensity="pga-ratio", model="slender").intervals()
             for levels in (LEVELS, fine_levels)
         )
         for known, wanted in ((coarse, fine), (standing(coarse), standing(fine))):
@@ -179,13 +192,15 @@ def test_a_grid_a_hundred_times_finer_finds_no_further_wide_interval():
 
 def test_certified_levels_around_a_switch_are_right_in_60_digits():
     motion = rk.synthetic_ground_motions(1, seed=7, duration=6.0, step=0.02)[0]
-    found = rk.overturning_set(motion, BLOCK, np.linspace(1.0, 6.0, 201), intensity="pga-ratio")
+    found = rk.overturning_set(
+        motion, BLOCK, np.linspace(1.0, 6.0, 201), intensity="pga-ratio", model="slender"
+    )
     assert found.switches.size > 3
     for switch in found.switches[:6]:
         assert switch["certified"]
         sides = []
         for level in (switch["certified_below"], switch["certified_above"]):
-            base = BLOCK.system(found.motion(0, level)).forcing
+            base = BLOCK.system(found.motion(0, level), model="slender").forcing
             sides.append(exact(Case(base.values, base.step, base.scale, BLOCK.restitution)).outcome)
         wanted = ["rest", "overturned"] if switch["overturns_above"] else ["overturned", "rest"]
         assert sides == wanted
@@ -194,8 +209,8 @@ def test_certified_levels_around_a_switch_are_right_in_60_digits():
 @pytest.mark.parametrize("intensity", ["scale", "pga", "pga-g", "pgv", "arias", "pga-ratio", "pgv-ratio"])
 def test_every_intensity_measure_gives_the_same_switch(intensity):
     motion = push(1.0, [0.0, 1.0, 0.5, 0.0])
-    (plain,) = rk.overturning_set(motion, BLOCK, [1.0, 30.0]).switches["level"]
-    measured = rk.overturning_set(motion, BLOCK, [1e-3, 1e4], intensity=intensity)
+    (plain,) = rk.overturning_set(motion, BLOCK, [1.0, 30.0], model="slender").switches["level"]
+    measured = rk.overturning_set(motion, BLOCK, [1e-3, 1e4], intensity=intensity, model="slender")
     assert measured.motion(0, measured.switches["level"][0]).factor == pytest.approx(plain, rel=1e-12)
 
 
@@ -204,27 +219,38 @@ def test_executors_give_the_same_set(several):
     for kind in (ThreadPoolExecutor, ProcessPoolExecutor):
         with kind(2) as pool:
             again = rk.overturning_set(
-                found.records, found.block, LEVELS, intensity="pga-ratio", executor=pool
+                found.records,
+                found.block,
+                LEVELS,
+                intensity="pga-ratio",
+                executor=pool,
+                model="slender",
             )
         assert again.dataset.identical(found.dataset)
 
 
 def test_polarity_and_angle_are_those_of_the_runs(several):
     motion, block = several[0].records[0], several[0].block
-    turned = rk.overturning_set(motion, block, LEVELS, intensity="pga-ratio", angle=0.3, polarity=-1)
-    backward = rk.overturning_set(motion.reversed(), block, LEVELS, intensity="pga-ratio", angle=0.3)
+    turned = rk.overturning_set(
+        motion, block, LEVELS, intensity="pga-ratio", angle=0.3, polarity=-1, model="slender"
+    )
+    backward = rk.overturning_set(
+        motion.reversed(), block, LEVELS, intensity="pga-ratio", angle=0.3, model="slender"
+    )
     assert turned.switches.tolist() == backward.switches.tolist()
     assert turned.switches.tolist() != several[0].switches[: turned.switches.size].tolist()
     for _, level, above, *_ in turned.switches.tolist():
         for each, falls in ((np.nextafter(level, 0.0), not above), (level, above)):
-            run = rk.simulate(block.system(turned.motion(0, each)), rk.State(0.3), record="none")
+            run = rk.simulate(
+                block.system(turned.motion(0, each), model="slender"), rk.State(0.3), record="none"
+            )
             assert (run.outcome == "overturned") == falls
 
 
 def test_dataset_is_kept_in_a_file(several, tmp_path):
     import xarray as xr
 
-    for found in (several[0], rk.overturning_set(push(1.0), BLOCK, [0.1, 0.2])):
+    for found in (several[0], rk.overturning_set(push(1.0), BLOCK, [0.1, 0.2], model="slender")):
         found.dataset.to_netcdf(tmp_path / "set.nc", engine="h5netcdf")
         with xr.open_dataset(tmp_path / "set.nc", engine="h5netcdf") as read:
             assert dict(read.sizes) == dict(found.dataset.sizes)
@@ -233,7 +259,7 @@ def test_dataset_is_kept_in_a_file(several, tmp_path):
 
 
 def test_a_range_without_overturning_has_no_interval():
-    found = rk.overturning_set([push(1.0), push(2.0, [1, 0.5])], BLOCK, [0.1, 0.5, 0.9])
+    found = rk.overturning_set([push(1.0), push(2.0, [1, 0.5])], BLOCK, [0.1, 0.5, 0.9], model="slender")
     assert found.switches.size == 0
     assert found.switches.dtype == SWITCH_ROW
     assert found.intervals(1).shape == (0, 2)
@@ -243,7 +269,7 @@ def test_a_range_without_overturning_has_no_interval():
 
 
 def test_a_range_that_overturns_throughout_is_one_interval():
-    found = rk.overturning_set(push(1.0), BLOCK, [2.0, 3.0, 9.0])
+    found = rk.overturning_set(push(1.0), BLOCK, [2.0, 3.0, 9.0], model="slender")
     assert found.intervals().tolist() == [[2.0, 9.0]]
     assert found.share.tolist() == [1.0]
 
@@ -260,7 +286,7 @@ def test_intervals_end_at_the_last_double_that_overturns():
 
 @pytest.mark.parametrize("record", [-1, 1, 0.5])
 def test_records_are_counted_from_0(record):
-    found = rk.overturning_set(push(1.0), BLOCK, [1.0, 2.0])
+    found = rk.overturning_set(push(1.0), BLOCK, [1.0, 2.0], model="slender")
     with pytest.raises(ValueError, match="record must be a whole number in"):
         found.intervals(record)
     with pytest.raises(ValueError, match="record must be a whole number in"):

@@ -225,8 +225,8 @@ def test_interrupted_film_leaves_what_was_there(tmp_path, monkeypatch, suffix):
 
 def test_base_moves_as_the_record_integrated_twice():
     ground = rk.GroundMotion([0.0, 4.0, -5.0, 3.0, 0.0], step=0.2)
-    motion = rk.simulate(BLOCK.system(ground))
-    forcing, unit = motion.system.forcing, BLOCK.acceleration(1.0) / BLOCK.frequency_parameter**2
+    motion = rk.simulate(BLOCK.system(ground, model="slender"))
+    forcing, unit = motion.system.forcing, motion.block.acceleration(1.0) / BLOCK.frequency_parameter**2
     samples = forcing.step * np.arange(5)
     np.testing.assert_allclose(
         unit * forcing.displacement(samples), ground.displacement, rtol=1e-12, atol=1e-15
@@ -252,7 +252,7 @@ def test_displacement_between_the_samples_is_that_of_the_straight_segments():
 
 
 def test_film_of_a_record_begins_before_the_lift_off_and_ends_after_rest():
-    motion = rk.simulate(BLOCK.system(rk.example_ground_motion().scaled(pga=6.0)))
+    motion = rk.simulate(BLOCK.system(rk.example_ground_motion().scaled(pga=6.0), model="slender"))
     (start, stop), _ = film_of(motion, BLOCK, count=5)
     first, last = motion.events["time"][[0, -1]]
     assert 0 < start < first
@@ -265,7 +265,7 @@ def test_film_of_a_record_without_block_gives_the_drift_in_heights():
 
 
 def test_block_that_never_moves_under_a_record_is_filmed_for_its_length():
-    motion = rk.simulate(BLOCK.system(rk.example_ground_motion()))
+    motion = rk.simulate(BLOCK.system(rk.example_ground_motion(), model="slender"))
     window, film = film_of(motion, BLOCK, count=5)
     assert window == (0.0, motion.duration)
     assert not film.angles.any()

@@ -193,6 +193,8 @@ KINDS = {
     "overturning_set": "an OverturningSet",
     "chaos_share": "a ChaosShare",
     "repeatability": "a Repeatability",
+    "restitution_fit": "a RestitutionFit",
+    "slip": "a Slip",
     "repeatability_map": "a RepeatabilityMap",
     "correlation_dimension": "a CorrelationDimension",
     "verdict": "a Verdict",
@@ -347,7 +349,7 @@ WRONG_VALUES = [
     ),
     (
         "result must have at most 3 limits to be drawn; got 4",
-        lambda: rk.fragility(RECORDS, BLOCK, [1.0, 5.0], limits=[0.1, 0.2, 0.3, 0.4]).plot(),
+        lambda: rk.fragility(RECORDS, BLOCK, [1.0, 5.0], limits=[0.1, 0.2, 0.3, 0.4], model="slender").plot(),
     ),
     (
         "result must vary over records, size and slenderness alone; got 'polarity' (select one value first, such…",
@@ -359,7 +361,9 @@ WRONG_VALUES = [
     ),
     (
         "result must hold one record to be a map; got '3 records' (select one first, such as result.dataset.isel(record=0))",
-        lambda: rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=np.linspace(0.1, 0.2, 7)).plot(),
+        lambda: rk.rocking_spectrum(
+            RECORDS, size=[1.0, 2.0], slenderness=np.linspace(0.1, 0.2, 7), model="slender"
+        ).plot(),
     ),
     (
         "across must be one of 'size', 'frequency-parameter'…",

@@ -17,12 +17,14 @@ def records():
 
 @pytest.fixture(scope="module")
 def analysis(records):
-    return rk.incremental_dynamic_analysis(records, BLOCK, np.linspace(1.0, 8.0, 15), intensity="pga")
+    return rk.incremental_dynamic_analysis(
+        records, BLOCK, np.linspace(1.0, 8.0, 15), intensity="pga", model="slender"
+    )
 
 
 @pytest.fixture(scope="module")
 def fragility(records):
-    return rk.fragility(records, BLOCK, np.linspace(0.2, 1.0, 9), intensity="pga-g")
+    return rk.fragility(records, BLOCK, np.linspace(0.2, 1.0, 9), intensity="pga-g", model="slender")
 
 
 def test_a_curve_is_flat_where_the_block_overturns():
@@ -90,7 +92,14 @@ def test_fractions_fits_and_intervals_are_drawn(fragility):
 
 def test_number_of_blocks_is_stated_and_levels_of_a_block_have_their_symbol(records):
     found = rk.fragility(
-        records, BLOCK, [1.0, 2.0, 3.0], intensity="pga-ratio", limits=(), samples=2, width_spread=0.1
+        records,
+        BLOCK,
+        [1.0, 2.0, 3.0],
+        intensity="pga-ratio",
+        limits=(),
+        samples=2,
+        width_spread=0.1,
+        model="slender",
     )
     ax = rk.plot.fragility(found)
     assert ax.get_title(loc="right") == "12 records × 2 blocks"
@@ -98,7 +107,7 @@ def test_number_of_blocks_is_stated_and_levels_of_a_block_have_their_symbol(reco
 
 
 def test_a_fragility_without_a_fit_is_drawn_without_a_curve(records):
-    ax = rk.plot.fragility(rk.fragility(records, BLOCK, [0.5, 1.0], limits=()))
+    ax = rk.plot.fragility(rk.fragility(records, BLOCK, [0.5, 1.0], limits=(), model="slender"))
     assert artists(ax, "fit") == artists(ax, "band") == []
     texts = legend(ax)
     assert texts == ["overturning", "95 % interval", "0 or 100 % of the runs"]

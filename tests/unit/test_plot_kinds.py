@@ -113,8 +113,12 @@ def drawn_legends():
                 rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9), **pulse
             )
         ),
-        "set": rk.plot.overturning_set(rk.overturning_set(records, block, np.linspace(2, 20, 40))),
-        "sizes": rk.plot.rocking_spectrum(rk.rocking_spectrum(records[:1], **sizes, levels=1.5)),
+        "set": rk.plot.overturning_set(
+            rk.overturning_set(records, block, np.linspace(2, 20, 40), model="slender")
+        ),
+        "sizes": rk.plot.rocking_spectrum(
+            rk.rocking_spectrum(records[:1], **sizes, levels=1.5, model="slender")
+        ),
         "repeatability": rk.plot.repeatability_map(rk.repeatability_map(system, **kinds, samples=4)),
         "response": rk.plot.frequency_response(
             rk.frequency_response(

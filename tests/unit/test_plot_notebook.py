@@ -21,7 +21,7 @@ def motion():
 
 @cache
 def motion_of_record():
-    return rk.simulate(rk.Block(2.0, 0.5).system(rk.example_ground_motion()))
+    return rk.simulate(rk.Block(2.0, 0.5).system(rk.example_ground_motion(), model="slender"))
 
 
 @cache

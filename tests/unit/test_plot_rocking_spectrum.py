@@ -16,7 +16,7 @@ SIZES = np.linspace(0.2, 3.0, 25)
 
 @pytest.fixture(scope="module")
 def found():
-    return rk.rocking_spectrum(RECORDS, size=SIZES, slenderness=[0.12, 0.2]).dataset
+    return rk.rocking_spectrum(RECORDS, size=SIZES, slenderness=[0.12, 0.2], model="slender").dataset
 
 
 def overturned(found):
@@ -76,7 +76,7 @@ def test_other_axes_stand_for_the_size_and_degrees_for_the_critical_angle(found,
 
 
 def test_degrees_of_a_slenderness_that_does_not_vary(found):
-    one = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2).dataset
+    one = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2, model="slender").dataset
     (line,) = artists(rk.plot.rocking_spectrum(one, unit="degrees"), "peak")
     (same,) = artists(rk.plot.rocking_spectrum(found.isel(record=0, slenderness=[1]), unit="degrees"), "peak")
     np.testing.assert_array_equal(line.get_ydata(), same.get_ydata())
@@ -84,7 +84,9 @@ def test_degrees_of_a_slenderness_that_does_not_vary(found):
 
 def test_slenderness_alone_is_an_axis_in_degrees():
     angles = np.linspace(0.1, 0.3, 9)
-    ax = rk.plot.rocking_spectrum(rk.rocking_spectrum(RECORDS[0], size=1.0, slenderness=angles))
+    ax = rk.plot.rocking_spectrum(
+        rk.rocking_spectrum(RECORDS[0], size=1.0, slenderness=angles, model="slender")
+    )
     np.testing.assert_array_equal(artists(ax, "peak")[0].get_xdata(), np.degrees(angles))
     assert ax.get_xlabel() == r"critical angle $\theta_\mathrm{cr}$ (°)"
 
@@ -106,7 +108,12 @@ def test_undecided_outcomes_are_circled_and_in_the_legend(found):
 def of_many():
     records = rk.synthetic_ground_motions(12, seed=2, duration=8.0)
     return rk.rocking_spectrum(
-        records, size=SIZES, slenderness=[0.15, 0.25], levels=0.5, intensity="pga-g"
+        records,
+        size=SIZES,
+        slenderness=[0.15, 0.25],
+        levels=0.5,
+        intensity="pga-g",
+        model="slender",
     ).dataset
 
 
@@ -133,16 +140,27 @@ def test_median_ends_where_more_than_half_of_the_records_overturn_the_block(of_m
 def test_heading_states_what_does_not_vary(found, of_many):
     ax = rk.plot.rocking_spectrum(of_many)
     assert (ax.get_title("left"), ax.get_title("right")) == ("12 records", "PGA = 0.5 g")
-    ax = rk.plot.rocking_spectrum(rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2, levels=2.0))
+    ax = rk.plot.rocking_spectrum(
+        rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2, levels=2.0, model="slender")
+    )
     heading = r"$\theta_\mathrm{cr}$ = 11.5°, factor = 2"
     assert (ax.get_title("left"), ax.get_title("right")) == ("synthetic 1", heading)
     two = rk.rocking_spectrum(
-        RECORDS[0], size=SIZES, slenderness=0.2, levels=[0.3, 0.5], intensity="pga-g"
+        RECORDS[0],
+        size=SIZES,
+        slenderness=0.2,
+        levels=[0.3, 0.5],
+        intensity="pga-g",
+        model="slender",
     ).dataset
     selected = rk.plot.rocking_spectrum(two.isel(level=1)).get_title("right")
     assert selected == r"$\theta_\mathrm{cr}$ = 11.5°, PGA = 0.5 g"
     many = rk.rocking_spectrum(
-        RECORDS[0], size=SIZES, slenderness=np.linspace(0.1, 0.3, 8), levels=2.0
+        RECORDS[0],
+        size=SIZES,
+        slenderness=np.linspace(0.1, 0.3, 8),
+        levels=2.0,
+        model="slender",
     ).dataset
     ax = rk.plot.rocking_spectrum(many)
     assert (ax.get_title("left"), ax.get_title("right")) == ("synthetic 1", "factor = 2")
@@ -159,7 +177,9 @@ def test_axis_of_the_angle_ends_below_the_strip_of_overturned_blocks(found):
 
 def test_many_slendernesses_are_a_map_with_overturned_blocks_in_grey():
     angles = np.linspace(0.08, 0.3, 9)
-    found = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=angles).dataset
+    found = rk.rocking_spectrum(
+        RECORDS[0], size=SIZES, slenderness=angles, model="slender", normalised_by="angle"
+    ).dataset
     ax = rk.plot.rocking_spectrum(found, across="period", unit="degrees")
     fallen, image = artists(ax, "overturned")[0], artists(ax, "peak")[0]
     fell = overturned(found).T

@@ -123,7 +123,14 @@ def test_points_that_are_not_certain_have_a_colour_of_their_own():
 @pytest.fixture(scope="module")
 def levels_that_overturn():
     records = rk.synthetic_ground_motions(3, seed=4)
-    return rk.overturning_set(records, rk.Block(2.0, 0.5), np.linspace(0.3, 0.8, 101), intensity="pga-g")
+    return rk.overturning_set(
+        records,
+        rk.Block(2.0, 0.5),
+        np.linspace(0.3, 0.8, 101),
+        intensity="pga-g",
+        model="slender",
+        normalised_by="angle",
+    )
 
 
 def test_bands_are_the_intervals_of_each_record(levels_that_overturn):
@@ -156,15 +163,17 @@ def test_undecided_switches_are_marked(levels_that_overturn):
 def test_many_records_are_numbered_and_long_names_are_cut_in_the_middle():
     block, push = rk.Block(2.0, 0.5), [4.0, 4.0]
     many = [rk.GroundMotion(push, step=0.5, name=f"record number {k} of a long series") for k in range(40)]
-    few = rk.plot.overturning_set(rk.overturning_set(many[:2], block, [0.1, 2.0]))
+    few = rk.plot.overturning_set(rk.overturning_set(many[:2], block, [0.1, 2.0], model="slender"))
     assert [tick.get_text() for tick in few.get_yticklabels()] == [
         "0 record … series",
         "1 record … series",
     ]
     ends = [rk.GroundMotion(push, step=0.5, name=f"RSN953_NORTHRIDGE_MUL{k}") for k in ("009", "279")]
-    told = rk.plot.overturning_set(rk.overturning_set(ends, block, [0.1, 2.0])).get_yticklabels()
+    told = rk.plot.overturning_set(
+        rk.overturning_set(ends, block, [0.1, 2.0], model="slender")
+    ).get_yticklabels()
     assert [tick.get_text() for tick in told] == ["RSN953_NO…E_MUL009", "RSN953_NO…E_MUL279"]
-    ax = rk.plot.overturning_set(rk.overturning_set(many, block, [0.1, 2.0]))
+    ax = rk.plot.overturning_set(rk.overturning_set(many, block, [0.1, 2.0], model="slender"))
     assert ax.get_ylabel() == "record"
     assert ax.get_yticks().tolist() == list(range(0, 40, 4))
 
@@ -180,7 +189,7 @@ def test_many_records_are_numbered_and_long_names_are_cut_in_the_middle():
 )
 def test_axis_of_levels_has_the_name_and_unit_of_the_measure(intensity, label):
     records = rk.RecordSet([rk.GroundMotion([1.0, 1.0], step=0.5)], columns={"magnitude": [6.0]})
-    found = rk.overturning_set(records, rk.Block(2.0, 0.5), [0.1, 2.0], intensity=intensity)
+    found = rk.overturning_set(records, rk.Block(2.0, 0.5), [0.1, 2.0], intensity=intensity, model="slender")
     assert rk.plot.overturning_set(found).get_xlabel() == label
 
 

@@ -108,7 +108,7 @@ def test_citations_are_bibtex_with_balanced_braces():
     # a bibliography style prints a note, and does not print an annote
     assert " note = " not in text
     assert text.count(" annote = ") == text.count("\n@")
-    assert text.count("\n@article{") == 14
+    assert text.count("\n@article{") == 16
     assert "@misc" not in text  # each source has a title, and the place where it stands
     assert f"version = {{{rocking.__version__}}}" in text
     for source in (
@@ -141,7 +141,7 @@ UNKNOWN = {
     "plot": (lambda: rocking.plot.modes(1.0, 0.9, amp=2.0), "modes() has no argument 'amp' (did you mean 'amplitude'?)"),
     "none": (lambda: rocking.cite(style=1), "cite() has no argument 'style' (it has none)"),
     "renamed": (
-        lambda: rocking.rocking_spectrum([], scale=1),
+        lambda: rocking.rocking_spectrum([], scale=1, model="slender"),
         "rocking_spectrum() has no argument 'scale' (since version 0.2 it is levels)",
     ),
     "replaced": (

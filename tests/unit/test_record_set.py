@@ -401,6 +401,7 @@ def test_names_of_a_set_are_those_that_the_motions_have(folder):
 
 
 DEPENDENT = "their results depend on each other, and intervals that take them as independent are too narrow"
+DEPENDENT += "; take one of each, for example component='first'"
 
 
 @pytest.fixture
@@ -467,9 +468,11 @@ def test_components_of_one_station_in_two_files_are_told(tmp_path):
 @pytest.mark.parametrize(
     "use",
     [
-        lambda motion: rk.Block(2.0, 0.5).system(motion),
+        lambda motion: rk.Block(2.0, 0.5).system(motion, model="slender"),
         lambda motion: rk.RecordSet([motion]),
-        lambda motion: rk.rocking_spectrum(motion, size=[1.0, 2.0], slenderness=0.2, progress=False),
+        lambda motion: rk.rocking_spectrum(
+            motion, size=[1.0, 2.0], slenderness=0.2, progress=False, model="slender"
+        ),
     ],
 )
 def test_vertical_motion_that_shakes_a_block_is_a_warning(use):

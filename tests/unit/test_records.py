@@ -376,7 +376,17 @@ def test_errors_of_bytes_in_memory_give_their_name(make):
             ": neither a record nor a table with a column 'file'; it begins with 'some words'",
         ),
         (b"\xff\xfe\xfd\n\n", ": neither a record nor a table with a column 'file'; it begins with 'ÿþý'"),
-        (b"0,00;0,1\n0,01;0,2\n", ", line 1: numbers with a decimal point expected; got '0,00;0,1'"),
+        (
+            b"0,00,0,01\n0,01,0,02\n",
+            ", line 1: commas separate the numbers and stand in them: put ; between the numbers; got '0,00,0,01'",
+        ),
+        (
+            b"1 2 3 4 5\n6 7 8 9 10\n",
+            (
+                ", line 1: 5 numbers in a line; for samples one after another, put a line with their number and the time step"
+                " before them, such as 1560 0.02"
+            ),
+        ),
         (
             b"time NS\n1 2 3\n4 5 6\n",
             ", line 2: 3 numbers in a line; more than two need a line of 3 titles that begins with the time, such as time,NS,EW",
@@ -609,14 +619,10 @@ def test_equidistant_times_may_be_rounded(make, times, step):
         (["0 1", "0.1 1", "0.2"], "line 3: 2 numbers expected; got '0.2'"),
         (["0 1", "0.1 1", "nan 1"], "line 3: 2 numbers expected; got 'nan 1'"),
         (["0 1", "1e-99999999999999999999 1", "2 1"], "line 2: 2 numbers expected"),
-        (["0,1;1,0", "0,2;1,1"], "numbers with a decimal point expected"),
+        (["0,1;1,0", "0,2;1.1"], "line 2: 2 numbers expected; got '0,2;1.1'"),
         (
             [*(f"{0.02 * k:.4f} 1" for k in range(100)), *(f"{2 + 0.0201 * k:.4f} 1" for k in range(50))],
             "line 105: the times are not equidistant: 2.0804 s where 2.08 s is expected, at a step of 0.02 s",
-        ),
-        (
-            ["time;NS", "0,00;0,1", "0,02;0,2"],
-            "file.x, line 2: numbers with a decimal point expected; got '0,00;0,1'",
         ),
         (["time,NS,EW", "2026-01-01,0,1"], "file.x, line 2: numbers alone expected; got '2026-01-01,0,1'"),
         (["time,NS,EW", "0,1,2", "1,2"], "line 3: 3 numbers expected; got '1,2'"),

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.kernels.classify import verdict_record as kernel
+from rocking.kernels.classify import verdict as kernel
 from rocking.model.verdict import Criterion
 from rocking.response.evidence import STATEMENTS, at_most
 

@@ -21,7 +21,17 @@ from rocking.model.result import Result
 from rocking.model.survey_results import RockingSpectrum
 from rocking.model.tables_and_json import finite
 
-WITHOUT_FIGURE = {"orbit", "proof", "horseshoe", "rotation number", "proved share", "sensitivity"}
+WITHOUT_FIGURE = {
+    "orbit",
+    "proof",
+    "horseshoe",
+    "rotation number",
+    "proved share",
+    "sensitivity",
+    "overturning rate",
+    "assessment",
+    "comparison of intensities",
+}
 
 
 OF_MANY_BLOCKS = "rocking spectrum"
@@ -197,7 +207,7 @@ def test_unknown_table_is_refused():
 SURVEYED = {
     "parametric map": lambda: rk.parametric_map(OF_BLOCK, amplitude=[2.0, 4.0], period=[1.0, 2.0]),
     "overturning spectrum": lambda: rk.overturning_spectrum(
-        BLOCK.system(rk.Pulse("one-sine", amplitude=5.0, duration=1.0)),
+        BLOCK.system(rk.Pulse("one-sine", amplitude=5.0, duration=1.0), model="slender"),
         amplitude=[3.0, 7.0],
         frequency=[4.0, 5.0],
     ),
@@ -246,7 +256,7 @@ def test_figure_in_chosen_units(name):
 
 
 def test_notebook_shows_the_text_of_a_result_that_has_no_figure():
-    spectrum = rk.rocking_spectrum(RECORDS, BLOCK)
+    spectrum = rk.rocking_spectrum(RECORDS, BLOCK, model="slender")
     with pytest.raises(ValueError, match="^result must vary over size or slenderness"):
         spectrum.plot()
     assert spectrum._repr_html_() is None

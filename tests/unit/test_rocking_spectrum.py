@@ -72,7 +72,8 @@ def peak_of(motion):
 def rounding_of_peak(block, ground, start):
     """Spread of the peak over factors that differ by units of the last place, as those of the two computations do."""
     peaks = [
-        peak_of(rk.simulate(block.system(ground.scaled(1.0 + k * 2.0**-52)), start)) for k in range(-2, 3)
+        peak_of(rk.simulate(block.system(ground.scaled(1.0 + k * 2.0**-52), model="slender"), start))
+        for k in range(-2, 3)
     ]
     return max(peaks) - min(peaks)
 
@@ -91,7 +92,7 @@ def differing(count, seed):
         "angle": np.array([-0.3, 0.0, 0.6]),
         "polarity": np.array([-1.0, 1.0]),
     }
-    found = rk.rocking_spectrum(records, **given, intensity="pga-ratio").dataset
+    found = rk.rocking_spectrum(records, **given, intensity="pga-ratio", model="slender").dataset
     wrong, certified = [], 0
     for flat in random.choice(found.outcome.size, count, replace=False):
         index = np.unravel_index(flat, found.outcome.shape)
@@ -103,7 +104,7 @@ def differing(count, seed):
         )
         ground = records[int(at["record"])].scaled(pga=at["level"] * GRAVITY * math.tan(slenderness))
         ground = ground if at["polarity"] > 0 else ground.reversed()
-        motion = rk.simulate(block.system(ground), start)
+        motion = rk.simulate(block.system(ground, model="slender"), start)
         certified += bool(row["certified"])
         same = row["peak"] == pytest.approx(peak_of(motion), rel=1e-9)
         if row["certified"] and not same and motion.outcome == "at-rest":
@@ -145,7 +146,7 @@ def test_many_random_points_end_as_simulate_says():
 
 
 def test_dataset_names_its_axes_records_and_quantities():
-    found = rk.rocking_spectrum(RECORDS, **ASKED).dataset
+    found = rk.rocking_spectrum(RECORDS, **ASKED, model="slender").dataset
     assert found.outcome.dims == ("record", "size", "slenderness")
     assert found.name.values.tolist() == list(RECORDS.names)
     assert found.pga.values.tolist() == [motion.pga for motion in RECORDS]
@@ -162,25 +163,30 @@ def test_dataset_names_its_axes_records_and_quantities():
 
 
 def test_one_record_is_no_dimension_and_its_name_an_attribute():
-    found = rk.rocking_spectrum(RECORDS[0], size=[1.0, 2.0], slenderness=0.2).dataset
+    found = rk.rocking_spectrum(RECORDS[0], size=[1.0, 2.0], slenderness=0.2, model="slender").dataset
     assert found.outcome.dims == ("size",)
     assert found.attrs["record"] == RECORDS.names[0]
     assert found.equals(
-        rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=0.2).dataset.isel(record=0, drop=True)
+        rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=0.2, model="slender").dataset.isel(
+            record=0, drop=True
+        )
     )
 
 
 def test_motion_of_zeros_moves_no_block():
     found = rk.rocking_spectrum(
-        rk.GroundMotion([0.0, 0.0], step=0.1), size=[1.0, 2.0], slenderness=0.2
+        rk.GroundMotion([0.0, 0.0], step=0.1),
+        size=[1.0, 2.0],
+        slenderness=0.2,
+        model="slender",
     ).dataset
     assert found.peak.values.tolist() == [0.0, 0.0]
     assert set(found.outcome.values.tolist()) == {OUTCOMES.index("at-rest")}
 
 
 def test_reversed_motion_is_that_of_the_other_polarity():
-    both = rk.rocking_spectrum(RECORDS, **ASKED, polarity=[-1.0, 1.0]).dataset
-    turned = rk.rocking_spectrum([motion.reversed() for motion in RECORDS], **ASKED).dataset
+    both = rk.rocking_spectrum(RECORDS, **ASKED, polarity=[-1.0, 1.0], model="slender").dataset
+    turned = rk.rocking_spectrum([motion.reversed() for motion in RECORDS], **ASKED, model="slender").dataset
     xr.testing.assert_equal(
         both.sel(polarity=-1.0, drop=True)[["outcome", "peak"]], turned[["outcome", "peak"]]
     )
@@ -189,20 +195,20 @@ def test_reversed_motion_is_that_of_the_other_polarity():
 @pytest.fixture(scope="module")
 def plain():
     """The spectrum in memory."""
-    return rk.rocking_spectrum(RECORDS, **ASKED).dataset
+    return rk.rocking_spectrum(RECORDS, **ASKED, model="slender").dataset
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     """The spectrum in a store that tests must not change."""
     folder = tmp_path_factory.mktemp("made") / "spectrum.zarr"
-    rk.rocking_spectrum(RECORDS, **ASKED, store=folder)
+    rk.rocking_spectrum(RECORDS, **ASKED, store=folder, model="slender")
     return folder
 
 
 def test_store_gives_the_spectrum_in_memory_and_is_not_computed_twice(plain, made):
     before = files(made)
-    assert rk.rocking_spectrum(RECORDS, **ASKED, store=made).dataset.load().equals(plain)
+    assert rk.rocking_spectrum(RECORDS, **ASKED, store=made, model="slender").dataset.load().equals(plain)
     assert files(made) == before
 
 
@@ -219,7 +225,7 @@ def test_each_level_refines_the_sizes(plain, made):
 def test_store_of_other_records_is_refused(made):
     others = rk.RecordSet([RECORDS[0], RECORDS[1].scaled(1.0 + 2**-52)])
     with pytest.raises(ValueError, match="the ground motions are others \\("):
-        rk.rocking_spectrum(others, **ASKED, store=made)
+        rk.rocking_spectrum(others, **ASKED, store=made, model="slender")
 
 
 def test_interrupted_run_says_how_to_go_on(tmp_path):
@@ -256,6 +262,7 @@ def test_batches_are_stretches_of_neighbours_that_share_tables():
         rk.RecordSet(RECORDS[0]),
         given | {"slenderness": 0.2, "angle": 0.0, "polarity": 1.0},
         intensity="pga-g",
+        model="slender",
     )
     measure, several = ending("Title"), 0
     for level in (*finest(spec), *levels(spec)):
@@ -273,6 +280,7 @@ def test_neighbours_with_equal_record_and_frequency_parameter_are_one_stretch():
         RECORDS,
         {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "level": 1.0},
         intensity="scale",
+        model="slender",
     )
     mesh = np.meshgrid(*spec.axes.values(), indexing="ij")
     runs = spec.inputs({name: values.ravel() for name, values in zip(spec.axes, mesh, strict=True)})
@@ -281,22 +289,22 @@ def test_neighbours_with_equal_record_and_frequency_parameter_are_one_stretch():
 
 
 def test_bar_says_the_number_of_points_and_ends_with_the_outcomes(terminal):
-    rk.rocking_spectrum(RECORDS, **ASKED, progress=True)
+    rk.rocking_spectrum(RECORDS, **ASKED, progress=True, model="slender")
     title, last = terminal()
     assert re.match(r"900 points in \d+ tiles?", title)
     assert "100 %" in last
     assert "overturned" in last
-    rk.rocking_spectrum(RECORDS, **ASKED)
+    rk.rocking_spectrum(RECORDS, **ASKED, model="slender")
     assert terminal() == [""]
 
 
 def test_store_of_version_0_1_is_refused_in_a_sentence(tmp_path):
     """The dimension of the levels was named `scale`."""
     arguments = {"size": [1.0, 2.0], "slenderness": 0.2, "levels": [1.0, 2.0], "store": tmp_path / "a.zarr"}
-    rk.rocking_spectrum(RECORDS[0], **arguments)
+    rk.rocking_spectrum(RECORDS[0], **arguments, model="slender")
     root = tmp_path / "a.zarr" / "zarr.json"
     root.write_text(root.read_text(encoding="utf-8").replace('"level"', '"scale"'), encoding="utf-8")
     message = "holds a survey of version 0.1, which names its levels `scale`"
     with pytest.raises(ValueError, match=f"^store '.*a.zarr' {message}") as refused:
-        rk.rocking_spectrum(RECORDS[0], **arguments)
+        rk.rocking_spectrum(RECORDS[0], **arguments, model="slender")
     assert "\n" not in str(refused.value)

@@ -7,16 +7,15 @@ import pytest
 
 import rocking as rk
 from rocking.kernels import event_kinds as ev
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.contract import settling
-from rocking.kernels.forcing.drives import HarmonicDrive, SampledDrive
-from rocking.kernels.forcing.harmonic import parameters
-from rocking.kernels.march import initial_state
-from rocking.kernels.march import march as kernel
-from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
-from rocking.kernels.march.event_rows import EVENT_ROW
-from rocking.kernels.march.progress import Recording
+from rocking.kernels.base.cosine import HarmonicDrive
+from rocking.kernels.base.samples import SampledDrive
+from rocking.kernels.block.chattering import base_settling_time, brace_settling_within
+from rocking.kernels.contract import settling
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.motion import march
+from rocking.kernels.motion.march import Recording
+from rocking.kernels.motion.observers import EVENT_ROW
+from rocking.kernels.system import harmonic_parameters
 from rocking.motion.march_loop import parameters as kernel_parameters
 
 STEADY = HarmonicDrive(1.0, 0.0)
@@ -24,9 +23,9 @@ STEADY = HarmonicDrive(1.0, 0.0)
 
 def first_reset(p, speed):
     """Return the time of the first event other than an impact, from the base at this speed, and whether it is rest."""
-    progress, _ = initial_state.begin_march(p, 0.0, speed)
+    progress, _ = march.begin_march(p, 0.0, speed)
     rows = np.empty(20_000, EVENT_ROW)
-    _, _, _, written = kernel.march(p, progress, 1, Recording(events=rows))
+    _, _, _, written = march.march(p, progress, 1, Recording(events=rows))
     others = rows[:written][rows["event"][:written] != ev.IMPACT]
     return others[0]["time"], others[0]["event"] == ev.RESTS
 
@@ -39,8 +38,8 @@ def test_certified_rest_comes_and_comes_in_time():
         phase, restitution = random.uniform(0.0, 2.0 * math.pi), random.uniform(0.05, 0.95)
         speed = 10.0 ** random.uniform(-6, -1)
         period = 2.0 * math.pi / frequency
-        p = parameters.harmonic_parameters(amplitude, frequency, period, phase, restitution)
-        bound = base_settling_time(p, HarmonicDrive(math.cos(phase), math.sin(phase)), speed, math.inf)
+        p = harmonic_parameters(amplitude, frequency, period, phase, restitution)
+        bound = base_settling_time(p, 1, HarmonicDrive(math.cos(phase), math.sin(phase)), speed, math.inf)
         if bound >= period:
             continue
         time, rests = first_reset(p, speed)
@@ -56,15 +55,15 @@ def test_certified_rest_comes_and_comes_in_time():
 @pytest.mark.parametrize("share", [1e-3, 0.03, 0.1])
 def test_bound_without_forcing_is_not_below_the_time_of_all_flights(restitution, share):
     """Against a press d a flight that begins with v lasts 2 artanh v/d: d is 1 at the base, 1/2 at a brace at 1.5."""
-    p = parameters.harmonic_parameters(0.0, 1.0, 2.0 * math.pi, 0.0, restitution, 1.5, restitution)
+    p = harmonic_parameters(0.0, 1.0, 2.0 * math.pi, 0.0, restitution, 1.5, restitution)
     flights = math.fsum(2.0 * math.atanh(share * restitution**k) for k in range(400))
-    assert flights <= base_settling_time(p, STEADY, share, math.inf) <= 1.1 * flights
-    assert flights <= brace_settling_time(p, 1, STEADY, 0.5 * share) <= 1.1 * flights
+    assert flights <= base_settling_time(p, 1, STEADY, share, math.inf) <= 1.1 * flights
+    assert flights <= brace_settling_within(p, 1, STEADY, 0.5 * share) <= 1.1 * flights
 
 
-@njit(**KERNEL)
+@kernel
 def settling_from(p, index, offset, speed):
-    return settling(p, SampledDrive(index, offset), speed)
+    return settling(p, 1, SampledDrive(index, offset), speed)
 
 
 def test_certified_rest_under_samples_comes_in_time_and_below_the_bound():

@@ -6,45 +6,44 @@ import numpy as np
 import pytest
 
 from rocking.kernels import event_kinds
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic import bracket, enclosure, fast_path, next_event
-from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters, make
-from rocking.kernels.forcing.harmonic.solution import NONE_YET, arc_from
+from rocking.kernels.arc import fast_search_cosine, first_zero_cosine
+from rocking.kernels.arc.slender_cosine import NONE_YET, arc_from
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.system import harmonic_parameters, slender_harmonic
 
 SAMPLES = np.linspace(0.0, 1.0, 300)
 
 
-@njit(**KERNEL)
+@kernel
 def stays_between(p, t, angle, velocity, end, arrival):
     system = p.forcing.amplitude, p.forcing.frequency, p.block.brace_angle
-    return enclosure.stays_between(system, t, (angle, velocity), (end, arrival))
+    return fast_search_cosine.stays_between(system, t, (angle, velocity), (end, arrival))
 
 
-@njit(**KERNEL)
+@kernel
 def misread(systems, starts, told):
     """Count first events that differ from those of the search; ``told`` (n,) takes which of them needed no search."""
     count = 0
     for k in range(len(systems)):
         amplitude, period, brace = systems[k]
         frequency = 2.0 * math.pi / period
-        p = make(amplitude, frequency, period, 0.0, 0.9, brace, 1.0)
+        p = slender_harmonic(amplitude, frequency, period, 0.0, 0.9, brace, 1.0)
         arc = arc_from(p, 1, starts[k, 0], starts[k, 1], starts[k, 2])
-        told[k] = fast_path.fast_first_event(p, arc)[0] == bracket.ZERO
-        likely, _ = next_event.next_event(p, event_kinds.FLIGHT, arc, NONE_YET)
-        sure = next_event.any_event(p, event_kinds.FLIGHT, arc)
+        told[k] = fast_search_cosine.fast_first_event(p, arc)[0] == fast_search_cosine.ZERO
+        likely, _ = first_zero_cosine.next_event(p, event_kinds.FLIGHT, arc, NONE_YET)
+        sure = first_zero_cosine.any_event(p, event_kinds.FLIGHT, arc)
         # a rounding of u moves the time by its ratio to the speed
         rounding = 1e-14 * (1.0 + amplitude) * (1.0 + sure.wait) / abs(sure.velocity)
         count += likely.event != sure.event or not abs(likely.wait - sure.wait) <= 1e-9 * sure.wait + rounding
     return count
 
 
-@njit(**KERNEL)
+@kernel
 def first_events(p, start, angle, velocity):
     """Return (event, time) of the first event without a search, if certain, and of that by the search."""
     arc = arc_from(p, 1, start, angle, velocity)
-    likely, _ = next_event.next_event(p, event_kinds.FLIGHT, arc, NONE_YET)
-    sure = next_event.any_event(p, event_kinds.FLIGHT, arc)
+    likely, _ = first_zero_cosine.next_event(p, event_kinds.FLIGHT, arc, NONE_YET)
+    sure = first_zero_cosine.any_event(p, event_kinds.FLIGHT, arc)
     return (likely.event, likely.wait), (sure.event, sure.wait)
 
 

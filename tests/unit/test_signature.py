@@ -1,12 +1,12 @@
 """Arguments and results of entry points as rows of words: round trips, and refusals of arrays of the wrong kind."""
 
 import struct
-from typing import Annotated, NamedTuple
+from typing import Annotated, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import pytest
 
-from rocking.kernels.signature import Bytes1, Floats1, Floats2, Signature, place_of_union
+from rocking.kernels.library.signature import Bytes1, Floats1, Floats2, Signature, chosen_of, place_of_union
 
 ROW = np.dtype([("time", float), ("side", float)])
 Rows = Annotated[np.ndarray, ROW, 1]
@@ -107,7 +107,7 @@ def test_union_is_found_at_its_place_and_replaced_by_what_is_chosen():
     place, union = place_of_union(list(solve.__annotations__.values())[:2])
     assert (place, union) == ((1, 1), One | Two)
     assert place_of_union([float, Outer]) is None
-    for chosen, (kind, words) in enumerate(((One, 3), (Two, 4))):
+    for chosen, kind, words in zip(chosen_of(union), (One, Two), (3, 4), strict=True):
         signature = Signature(solve, chosen)
         value = kind(*range(len(kind._fields)))
         block = signature.pack((0.5, Problem(9, value)))
@@ -115,6 +115,37 @@ def test_union_is_found_at_its_place_and_replaced_by_what_is_chosen():
         struct.pack_into(f"={len(value)}d", block, 8 * words, *value)
         assert signature.unpack(block) == value
         assert type(signature.unpack(block)) is kind
+
+
+Base = TypeVar("Base", One, Two)
+
+
+class Plain(NamedTuple, Generic[Base]):
+    forcing: Base
+
+
+class Held(NamedTuple, Generic[Base]):
+    forcing: Base
+    inside: Plain[Base]
+
+
+class Row(NamedTuple):
+    of_base: Annotated[Inner | Outer, (Inner, Outer)]
+    as_base: One | Two
+
+
+def test_types_that_depend_on_the_base_follow_the_chosen_system():
+    def solve(p: Plain[One] | Plain[Two] | Held[Two], row: Row) -> float: ...
+
+    choices = chosen_of(place_of_union([solve.__annotations__["p"]])[1])
+    assert [choice.name for choice in choices] == ["PlainOne", "PlainTwo", "HeldTwo"]
+    assert [choice.key for choice in choices] == [(Plain, One), (Plain, Two), (Held, Two)]
+    found = [Signature(solve, choice).arguments.types for choice in choices]
+    systems, rows = zip(*found, strict=True)
+    assert [system.kind for system in systems] == [Plain, Plain, Held]
+    assert [[part.kind for part in row.types] for row in rows] == [[Inner, One], [Outer, Two], [Outer, Two]]
+    assert systems[2].types[1] == systems[1]
+    assert len({Signature(solve, choice).digest for choice in choices}) == 3
 
 
 class Turned(NamedTuple):

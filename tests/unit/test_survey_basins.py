@@ -197,6 +197,14 @@ def test_between_braces_every_start_is_safe():
         rk.safe_basin(**asked)
 
 
+@pytest.mark.parametrize("kind", [{"critical_angle": 0.25}, {"left": rk.LeftSide(1.3, 0.99, 0.8)}], ids=str)
+def test_closed_forms_are_those_of_the_slender_symmetric_block_alone(kind):
+    system = rk.System(rk.Harmonic(4.0, period=1.0), 0.8, **kind)
+    found = rk.safe_basin(system, amplitude=[3.0, 6.0], samples=20, max_cycles=100)
+    assert np.isnan([found.heteroclinic_amplitude, found.melnikov_amplitude]).all()
+    assert "A*" not in str(found)
+
+
 def test_the_safe_area_need_not_fall_above_the_tangency():
     tangency = rk.theory.heteroclinic_amplitude(1.0, 0.8)
     found = rk.safe_basin(

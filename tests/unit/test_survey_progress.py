@@ -94,11 +94,15 @@ SYSTEM = system_with(amplitude=0.5, restitution=0.9)
         ("5 points in 1 tile, ", lambda shown: rk.repeatability(SYSTEM, samples=5, progress=shown)),
         (
             "6 points in 1 tile, ",
-            lambda shown: rk.overturning_set(RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown),
+            lambda shown: rk.overturning_set(
+                RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown, model="slender"
+            ),
         ),
         (
             "36 points in 1 tile, ",
-            lambda shown: rk.sensitivity(RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown),
+            lambda shown: rk.sensitivity(
+                RECORDS, rk.Block(2.0, 0.5), [1.0, 2.0], progress=shown, model="slender"
+            ),
         ),
         (
             "2 points in 1 tile, ",

@@ -8,6 +8,8 @@ import rocking as rk
 from made_results import BLOCK, RECORDS
 from surveyed import system_with
 
+POLARITIES = '"+", "-", "both" or "worse", or 1, -1 or [-1, 1]'
+
 SYSTEM = system_with(restitution=0.9)
 BRACED = system_with(restitution=0.9, brace_angle=1.0)
 PULSED = rk.System(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), 0.9)
@@ -143,9 +145,9 @@ LEVELS = "levels must be an array of levels, ascending; got 2.0 (such as np.lins
 for survey in ("overturning_set", "incremental_dynamic_analysis"):
     WRONG[survey] += [
         ({"levels": 2.0}, LEVELS),
-        ({"polarity": [-1, 1]}, "polarity must be 1 or -1; got [-1, 1]"),
-        ({"polarity": 0.5}, "polarity must be 1 or -1; got 0.5"),
-        ({"polarity": "up"}, "polarity must be 1 or -1; got 'up'"),
+        ({"polarity": [1, -1]}, f"polarity must be {POLARITIES}; got [1, -1]"),
+        ({"polarity": 0.5}, f"polarity must be {POLARITIES}; got 0.5"),
+        ({"polarity": "up"}, f"polarity must be {POLARITIES}; got 'up'"),
         ({"angle": [0.0, 0.1]}, "angle must be one number; got [0.0, 0.1]"),
         ({"executor": 2}, "executor must be an Executor; got 2"),
     ]

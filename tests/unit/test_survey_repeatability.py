@@ -44,7 +44,7 @@ def test_disturbed_points_are_the_systems_with_the_disturbed_quantities():
     start, units = rk.State(0.05, -0.1), np.random.default_rng(6).uniform(-1, 1, (40, 5))
     quantities = by_period(EDGE) | {"angle": start.angle, "velocity": start.velocity}
     meant = points({name: np.full(40, value) for name, value in quantities.items()}, {})
-    systems, starts = inputs_off(meant, units, 0.02)
+    systems, starts, _ = inputs_off(meant, units, 0.02)
     for row, begun, unit in zip(systems, starts, units, strict=True):
         system, state = disturbed(EDGE, start, unit, 0.02)
         found = dict(zip(SYSTEM, row.tolist(), strict=True))

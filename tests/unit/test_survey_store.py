@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -364,7 +365,8 @@ def test_every_survey_that_is_interrupted_is_resumed_and_repaired_to_the_result_
 ):
     survey, arguments = EVERY[name]
     folder, write, left = tmp_path / "survey.zarr", zarr_store.Store.write, [1]
-    plain, whole = survey(**arguments).to_xarray().load(), computed()
+    with ThreadPoolExecutor(2) as threads:
+        plain, whole = survey(**arguments, executor=threads).to_xarray().load(), computed()
 
     def interrupted(kept, tile, answers):
         left[0] -= 1

@@ -65,6 +65,7 @@ MOTIONS = motion_spec(
     rk.RecordSet(rk.synthetic_ground_motions(1, seed=1)),
     {"size": np.array([1.0, 2.0]), "slenderness": 0.2, "angle": 0.0, "polarity": 1.0, "level": 1.0},
     intensity="scale",
+    model="slender",
 ).inputs({"size": NONE})
 EMPTY = {
     "map": (response(100, 8, "A map"), HARMONIC),

@@ -73,6 +73,80 @@ def test_a_push_in_one_direction_overturns_from_the_threshold_on(kind, rate):
     assert found == pytest.approx(edge, rel=1e-10, abs=0)
 
 
+TRIANGLES = {
+    "falling": (rk.theory.falling_triangle_pulse_amplitude, [1.0, 0.0]),
+    "isosceles": (rk.theory.triangle_pulse_amplitude, [0.0, 1.0, 0.0]),
+}
+
+
+@pytest.mark.parametrize("duration", [0.1, 0.5, 1.0, 2.0, 4.0, 12.0])
+@pytest.mark.parametrize("kind", TRIANGLES)
+@pytest.mark.parametrize("e", [0.5, 0.9, 1.0])
+def test_a_triangle_overturns_from_the_threshold_on(kind, duration, e):
+    formula, values = TRIANGLES[kind]
+    edge = formula(duration)
+
+    def falls(amplitude):
+        base = rk.PiecewiseLinear(np.array(values) * amplitude, step=duration / (len(values) - 1))
+        return rk.simulate(rk.System(base, e), record="none").outcome is rk.Outcome.OVERTURNED
+
+    assert bisected(falls, 1.0, 2 * edge) == pytest.approx(edge, rel=1e-10, abs=0)
+    for amplitude in np.linspace(1.0, edge, 40, endpoint=False):
+        assert not falls(amplitude)
+
+
+@pytest.mark.parametrize("kind", TRIANGLES)
+def test_a_triangle_of_samples_overturns_a_block_in_si(kind):
+    """A slender block of α = 2.7/s under a record of the pulse with many samples."""
+    block, (formula, values) = rk.Block(2.0, 0.5), TRIANGLES[kind]
+    seconds = 0.4
+    edge = formula(seconds * block.frequency_parameter) * 9.80665 * math.tan(block.critical_angle)
+    samples = np.interp(np.linspace(0.0, 1.0, 201), np.linspace(0.0, 1.0, len(values)), values)
+
+    def falls(amplitude):
+        ground = rk.GroundMotion(samples * amplitude, step=seconds / 200)
+        return (
+            rk.simulate(block.system(ground, model="slender"), record="none").outcome is rk.Outcome.OVERTURNED
+        )
+
+    assert bisected(falls, 0.5 * edge, 2 * edge) == pytest.approx(edge, rel=1e-10, abs=0)
+
+
+@pytest.mark.parametrize(
+    "kind, known",
+    [
+        ("falling", {0.5: 4.693484498723, 1.0: math.e, 4.0: 1.325242445973}),
+        ("isosceles", {0.5: 4.983389430863, 2.0: 1.960323544077}),
+    ],
+)
+def test_triangles_have_their_known_thresholds(kind, known):
+    assert TRIANGLES[kind][0](list(known)) == pytest.approx(list(known.values()), rel=1e-12, abs=0)
+
+
+@pytest.mark.parametrize("duration", [1e-6, 1e-3, 0.3, 0.99, 1.0, 1.01, 7.0, 40.0, 1e3, 1e6])
+def test_triangles_have_forty_digits(duration):
+    """From the integral e^{t₀} ∫ e⁻ˣ a(x) dx = 1, by its antiderivative in 400 digits, not from the reduced forms."""
+    with mp.workdps(400):
+        T = mp.mpf(duration)
+        falling = 1 / (1 - (1 - mp.exp(-T)) / T)
+
+        def excess(start):
+            slope = 1 / start
+            rising = -(T / 2 + 1) * mp.exp(-T / 2) + (start + 1) * mp.exp(-start)
+            back = mp.exp(-T) + (T / 2 - 1) * mp.exp(-T / 2)
+            return mp.exp(start) * slope * (rising + back) - 1
+
+        low, high = T * mp.mpf("1e-9"), T / 2
+        for _ in range(400):
+            middle = (low + high) / 2
+            low, high = (middle, high) if excess(middle) > 0 else (low, middle)
+        isosceles = T / (2 * high)
+    assert rk.theory.falling_triangle_pulse_amplitude(duration) == pytest.approx(
+        float(falling), rel=2e-15, abs=0
+    )
+    assert rk.theory.triangle_pulse_amplitude(duration) == pytest.approx(float(isosceles), rel=2e-15, abs=0)
+
+
 @pytest.mark.parametrize("rate", RATES)
 @pytest.mark.parametrize("kind", ["one-sine", "one-cosine"])
 def test_a_whole_period_overturns_without_impact_from_the_threshold_on(kind, rate):

@@ -2,6 +2,7 @@
 
 import math
 import re
+import warnings
 
 import mpmath as mp
 import numpy as np
@@ -12,7 +13,9 @@ import rocking as rk
 from rocking.theory import (
     contact_restitution,
     design_angle,
+    equal_displacement_angle,
     equivalent_damping,
+    ishiyama_levels,
     pulse_overturning_rule,
     rocking_frame,
 )
@@ -132,7 +135,7 @@ def displacement(ground, period, damping):
         (0.0, ground.duration),
         [0.0, 0.0],
         "DOP853",
-        ground.times,
+        np.linspace(0.0, ground.duration, 100_000),
         rtol=1e-10,
         atol=1e-13,
         max_step=ground.step,
@@ -194,7 +197,119 @@ def test_rule_is_one_plus_a_part_of_the_frequency(kind, slope):
     assert found.tolist() == [1.0, 1.0 + 1.5 / slope, 1.0 + 3.0 / slope]
 
 
+@pytest.mark.parametrize(
+    "block", [rk.Block(4.0, 1.0), rk.Block(2.0, 0.6), rk.Block(2.0, 0.5, inertia_ratio=1.2)]
+)
+def test_velocity_of_ishiyama_overturns_as_a_step(block):
+    """The full block under a short push with that velocity overturns, and under one with 0.1 % less it does not."""
+    pga, pgv = ishiyama_levels(block)
+    assert pga == pytest.approx(9.80665 * block.width / block.height, rel=1e-14)
+    if block.inertia_ratio == 4 / 3:
+        a = block.critical_angle
+        known = math.sqrt(8 * 9.80665 * block.radius * (1 - math.cos(a)) / (3 * math.cos(a) ** 2))
+        assert pgv == pytest.approx(0.4 * known, rel=1e-12)
+    seconds, step = 1e-5, pgv / 0.4
+
+    def outcome(velocity):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", rk.InputWarning)  # of the acceleration
+            push = rk.GroundMotion(np.full(2, velocity / seconds), step=seconds)
+        return rk.simulate(block.system(push), record="none").outcome
+
+    # while it lasts, gravity takes g tan α
+    lost = pga * seconds / step
+    assert lost < 1e-4
+    assert outcome(1.001 * step) == "overturned"
+    assert outcome(0.999 * step) != "overturned"
+
+
+@pytest.mark.long
+def test_velocity_of_ishiyama_is_a_fractile_and_no_bound():
+    """The figures of the documentation: 60 synthetic records, lowest overturning PGV over v₀."""
+    records, lowest = rk.synthetic_ground_motions(60, seed=1), {}
+    for height, width in ((4.0, 1.0), (2.0, 0.5)):
+        block = rk.Block(height, width)
+        step = ishiyama_levels(block)[1] / 0.4
+        levels = np.linspace(0.15, 3.0, 286) * step
+        lowest[height] = rk.overturning_set(records, block, levels, intensity="pgv").lowest / step
+    tall, low = lowest.values()
+    assert (np.sum(tall < 0.4), np.sum(low < 0.4)) == (3, 0)
+    assert (tall.min(), low.min()) == pytest.approx((0.376, 0.410), abs=5e-4)
+    assert [round(float(np.nanmedian(each)), 1) for each in (tall, low)] == [0.6, 0.6]
+
+
+def top_displacement(block, angle):
+    """Sideways displacement of the upper corner, by its two places."""
+    turned = block.critical_angle * (1.0 - np.asarray(angle))
+    return 2.0 * block.radius * (math.sin(block.critical_angle) - np.sin(turned))
+
+
+def test_blocks_of_equal_displacement():
+    small, large = rk.Block(2.0, 0.4), rk.Block(5.0, 1.0)
+    angles = np.linspace(0.0, 1.0, 11)
+    found = equal_displacement_angle(angles, small, large)
+    assert top_displacement(large, found) == pytest.approx(
+        top_displacement(small, angles), rel=1e-12, abs=1e-15
+    )
+    assert equal_displacement_angle(found[:-1], large, small) == pytest.approx(
+        angles[:-1], rel=1e-12, abs=1e-14
+    )
+    # the displacement of the small block on its critical angle is its width
+    edge = 1.0 - math.asin(math.sin(large.critical_angle) * 0.6) / large.critical_angle
+    assert math.isinf(equal_displacement_angle(edge + 1e-9, large, small))
+    assert equal_displacement_angle(edge - 1e-9, large, small) == pytest.approx(1.0, abs=1e-8)
+    assert equal_displacement_angle(0.3, small, small) == 0.3
+
+
+def test_equal_displacement_holds_for_the_median_of_records():
+    """The figures of the documentation: ratio of the displacements of two sizes under 60 synthetic records."""
+    records, slope = rk.synthetic_ground_motions(60, seed=1), math.atan(0.2)
+
+    def ratios(radius, level):
+        """Return the ratios for records under which both stand, and the number that overturns the smaller block."""
+        blocks = [rk.Block(2 * R * math.cos(slope), 2 * R * math.sin(slope)) for R in (radius, 2 * radius)]
+        peaks = [
+            rk.incremental_dynamic_analysis(records, block, [1.0, level], intensity="pga-ratio")
+            .dataset.peak.sel(level=level)
+            .values
+            for block in blocks
+        ]
+        stand = np.isfinite(peaks[0]) & np.isfinite(peaks[1]) & (peaks[0] > 0.0)
+        small, large = (
+            top_displacement(block, peak[stand]) for block, peak in zip(blocks, peaks, strict=True)
+        )
+        return large / small, int(np.isinf(peaks[0]).sum())
+
+    moderate, few = ratios(4.0, 2.0)
+    assert few == 1
+    assert np.median(moderate) == pytest.approx(0.97, abs=0.005)
+    assert np.quantile(moderate, [0.16, 0.84]) == pytest.approx([0.60, 1.18], abs=0.01)
+    strong, many = ratios(2.0, 3.0)
+    assert (many, strong.size) == (47, 12)
+    assert np.median(strong) == pytest.approx(1.45, abs=0.01)
+
+
 REFUSED = {
+    "unsymmetric block of Ishiyama": (
+        lambda: ishiyama_levels(rk.Block(2.0, 0.5, offset=0.05)),
+        ValueError,
+        "block must be symmetric; got ",
+    ),
+    "other slenderness": (
+        lambda: equal_displacement_angle(0.5, rk.Block(2.0, 0.5), rk.Block(2.0, 0.4)),
+        ValueError,
+        "other must have the slenderness of the block, 14.0362°; got 11.3099°",
+    ),
+    "unsymmetric other block": (
+        lambda: equal_displacement_angle(0.5, rk.Block(2.0, 0.5), rk.Block(2.0, 0.5, offset=0.05)),
+        ValueError,
+        "other must be symmetric; got ",
+    ),
+    "angle of equal displacement": (
+        lambda: equal_displacement_angle(1.5, rk.Block(2.0, 0.5), rk.Block(4.0, 1.0)),
+        ValueError,
+        "angle must lie in [0, 1]; got 1.5",
+    ),
     "mass": (
         lambda: rocking_frame(2.0, 0.5, -1.0),
         ValueError,

@@ -9,22 +9,30 @@ import click
 from rocking.cli.options import (
     AMPLITUDES,
     AXIS,
+    CHANNEL,
+    COMPONENT,
     FILMS,
     FOLDER,
     FORCED,
     FREQUENCIES,
+    FRICTION,
     INERTIA_RATIO,
     JSON,
+    LAW,
+    MASS_CENTRE,
     MODEL,
     NETCDF,
+    NORMALISED_BY,
     NUMBER,
     ONE_AXIS,
     ONE_RANGE,
     ONE_VALUE,
     PICTURES,
+    POLARITY,
     PROVE,
     RANGE,
     READING,
+    RECORD,
     REPAIR,
     SOURCES,
     START,
@@ -39,6 +47,7 @@ from rocking.cli.options import (
     PathType,
     Port,
     RecordFile,
+    Word,
     csv,
     interval,
     levels,
@@ -91,7 +100,9 @@ MOTION_CSV = output(
     "that of a full block when it lies flat.",
     ".csv",
 )
-BLOCK = quantities("height", "width", "restitution")
+UNSCATTERED = LAW[:2]
+"""Options of the law of restitution of an analysis of recurrent motions, which takes no scatter."""
+BLOCK = (*quantities("height", "width", "restitution", *MASS_CENTRE), *LAW)
 RANDOM_SEED = number("seed", "Random seed. Default: 0.")
 SURVEY_COUNTS = (
     number("max_cycles", "Maximum number of forcing cycles. Default: 10,000."),
@@ -114,7 +125,10 @@ COMMANDS = (
                 f"One pulse instead of harmonic motion: {PULSES}. Its duration is the period; for a half-sine, half of it.",
             ),
             number("cycles", "Without --pulse: the number of forcing cycles to simulate. Default: 200."),
+            *LAW,
+            FRICTION,
             MODEL,
+            NORMALISED_BY,
         ),
         outputs=(
             output(
@@ -149,20 +163,33 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
         inputs="record_requests.record",
         report="reports_motion.RECORD",
         options=(
-            click.Argument(
-                ["file"],
-                type=RecordFile(),
-                metavar="FILE",
-                help="Record file; its format is recognised by the content. `example` is the record that comes with the package.",
+            RECORD,
+            *quantities(
+                "height", "width", "restitution", *MASS_CENTRE, "brace_angle", "brace_restitution", *START
             ),
-            *quantities("height", "width", "restitution", "brace_angle", "brace_restitution", *START),
+            *LAW,
             INERTIA_RATIO,
+            FRICTION,
+            POLARITY,
             *scaling(
                 NUMBER, "the record is", "Factor of the record; a negative one reverses it. Default: 1."
             ),
-            number("channel", "Channel of the file, counted from 1.", 1),
+            CHANNEL,
             *READING,
+            number(
+                "azimuth_deg",
+                "Direction of shaking, degrees from the channel towards the other horizontal one: that of the file, or of --second.",
+            ),
+            make(
+                "second", RecordFile(), "FILE", "File of the other horizontal component, for --azimuth-deg."
+            ),
+            number(
+                "floor_period",
+                "Period of a floor, s: the block stands on a linear oscillator on this ground.",
+            ),
+            number("floor_damping", "Damping ratio of the floor. Default: 0.05."),
             MODEL,
+            NORMALISED_BY,
         ),
         outputs=(
             plot("Plot the time history, the base acceleration and the phase portrait"),
@@ -183,6 +210,34 @@ rocking record example --height 2 --width 0.5 --pga-g 1.3 \\
 """,
     ),
     Command(
+        "slide",
+        "Follow a block that slides on the ground and does not rock.",
+        function="rocking.motion.sliding.slide",
+        inputs="record_requests.sliding",
+        report="reports_motion.SLIDE",
+        options=(
+            RECORD,
+            number("friction", "Coefficient of friction μ between block and ground, in [0.001, 10]."),
+            *scaling(
+                NUMBER, "the record is", "Factor of the record; a negative one reverses it. Default: 1."
+            ),
+            CHANNEL,
+            *READING,
+        ),
+        outputs=(
+            plot("Plot the slip over time"),
+            csv("Write time, slip, its velocity and the acceleration of the ground"),
+            NETCDF,
+            JSON,
+        ),
+        details="The slip is exact for straight segments between samples. It does not depend on the size of the block. A block whose "
+        "width is less than μ times its height rocks before it slides.",
+        examples="""
+# The record that comes with the package, scaled to 0.5 g.
+rocking slide example --friction 0.3 --pga-g 0.5 --plot slip.png
+""",
+    ),
+    Command(
         "spectrum",
         "Follow blocks of many sizes under ground motions.",
         function="rocking.survey.spectra.rocking_spectrum",
@@ -190,7 +245,7 @@ rocking record example --height 2 --width 0.5 --pga-g 1.3 \\
         report="reports_records.SPECTRUM",
         options=(
             SOURCES,
-            *quantities("height", "width"),
+            *quantities("height", "width", *MASS_CENTRE),
             interval(
                 "size",
                 VALUES,
@@ -206,10 +261,14 @@ rocking record example --height 2 --width 0.5 --pga-g 1.3 \\
                 VALUES,
                 "Coefficient of restitution e. Default: Housner's value for each slenderness.",
             ),
+            *LAW,
             INERTIA_RATIO,
             *scaling(VALUES, "each record is", "Factor of the records. Default: 1."),
+            POLARITY,
             MODEL,
+            NORMALISED_BY,
             *READING,
+            COMPONENT,
         ),
         outputs=(
             STORE,
@@ -236,7 +295,7 @@ rocking spectrum example --height 2 --width 0.5 --size 0.5:5:50 \\
         function="rocking.response.classify.classify",
         inputs="requests.response",
         report="reports_verdict.CLASSIFY",
-        options=(*quantities(*SYSTEM, *START), MODEL, max_cycles(100_000), max_period(), PROVE),
+        options=(*quantities(*SYSTEM, *START), *UNSCATTERED, MODEL, max_cycles(100_000), max_period(), PROVE),
         outputs=(
             plot("Plot the last cycles, the phase portrait, the Poincaré section and the verdict"),
             JSON,
@@ -259,6 +318,7 @@ rocking classify --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2
         report="reports_verdict.LYAPUNOV",
         options=(
             *quantities(*SYSTEM, *START),
+            *UNSCATTERED,
             MODEL,
             number("cycles", "Number of forcing cycles of the average, at least 32.", 10_000),
             number("transient", "Forcing cycles discarded before the average. Default: a tenth of --cycles."),
@@ -306,7 +366,12 @@ rocking modes --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 \\
         function="rocking.survey.parametric_map.parametric_map",
         inputs="requests.parametric_map",
         report="reports_surveys.MAP",
-        options=(*quantities(*SYSTEM, *START, kind=VALUES, varied=VARIABLE), MODEL, *SURVEY_COUNTS),
+        options=(
+            *quantities(*SYSTEM, *START, kind=VALUES, varied=VARIABLE),
+            *UNSCATTERED,
+            MODEL,
+            *SURVEY_COUNTS,
+        ),
         outputs=(
             STORE,
             REPAIR,
@@ -368,6 +433,7 @@ rocking map --height 2 --width 0.5 --acceleration 1:8:50 \\
                 "Number of random initial states in these ranges; replaces the grid. COUNT is ignored.",
             ),
             RANDOM_SEED,
+            *UNSCATTERED,
             MODEL,
             *SURVEY_COUNTS,
             number(
@@ -425,6 +491,7 @@ rocking basins --amplitude 5.5 --period 1 --restitution 0.8 \\
                 "Number of random initial states in these ranges, the same ones at each amplitude. Default: 10,000.",
             ),
             RANDOM_SEED,
+            *UNSCATTERED,
             MODEL,
             *SURVEY_COUNTS,
         ),
@@ -468,6 +535,7 @@ rocking safe-basin --height 2 --width 0.5 --acceleration 2:10:20 \\
                 "period_s",
                 "restitution",
                 "critical_angle",
+                *MASS_CENTRE,
                 kind=VALUES,
                 varied=VARIABLE,
             ),
@@ -483,6 +551,7 @@ rocking safe-basin --height 2 --width 0.5 --acceleration 2:10:20 \\
             ),
             interval("acceleration_g", AXIS, "Amplitudes to scan, in units of g; replaces --acceleration."),
             number("phases", "Number of initial forcing phases. Default: 16."),
+            *UNSCATTERED,
             MODEL,
             number("max_cycles", "Maximum number of forcing cycles per run. Default: 1,000."),
             SURVEY_COUNTS[1],
@@ -523,12 +592,11 @@ rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10 \\
             *quantities("angle"),
             *levels(),
             INERTIA_RATIO,
-            number(
-                "polarity",
-                "1, or -1 for the opposite direction of the records: no effect on a block at rest, which is symmetric. Default: 1.",
-            ),
+            POLARITY,
             MODEL,
+            NORMALISED_BY,
             *READING,
+            COMPONENT,
         ),
         outputs=(
             STORE,
@@ -547,13 +615,50 @@ rocking overturning-set example --height 2 --width 0.5 --pga-g 0.1:2:400 \\
 """,
     ),
     Command(
+        "ida",
+        "Follow a block under records at many levels.",
+        function="rocking.survey.incremental_dynamic_analysis.incremental_dynamic_analysis",
+        inputs="record_requests.incremental_dynamic_analysis",
+        report="reports_records.IDA",
+        options=(
+            SOURCES,
+            *BLOCK,
+            *quantities("angle"),
+            *levels(),
+            INERTIA_RATIO,
+            POLARITY,
+            MODEL,
+            NORMALISED_BY,
+            *READING,
+            COMPONENT,
+        ),
+        outputs=(
+            STORE,
+            REPAIR,
+            plot("Plot the level over the largest angle of each record, with fractiles"),
+            csv("Write one row per run"),
+            SURVEY_NETCDF,
+            JSON,
+        ),
+        details="Incremental dynamic analysis: each record is scaled to each level. The report has fractiles of the largest angle over "
+        f"the records. {LEVELS_TEXT}",
+        progress=True,
+        examples="""
+# The record of the package at 30 levels; name a folder or a table instead.
+rocking ida example --height 2 --width 0.5 --pga-g 0.1:1.5:30 \\
+    --plot ida.png --csv ida.csv
+""",
+    ),
+    Command(
         "overturning-spectrum",
         "Find the pulses that overturn a block.",
         function="rocking.survey.spectra.overturning_spectrum",
         inputs="requests.overturning_spectrum",
         report="reports_surveys.OVERTURNING_SPECTRUM",
         options=(
-            *quantities("height", "width", "restitution", "critical_angle", kind=VALUES, varied=VARIABLE),
+            *quantities(
+                "height", "width", "restitution", "critical_angle", *MASS_CENTRE, kind=VALUES, varied=VARIABLE
+            ),
             make(
                 "pulse",
                 TEXT,
@@ -569,7 +674,9 @@ rocking overturning-set example --height 2 --width 0.5 --pga-g 0.1:2:400 \\
                 "Amplitudes of the base acceleration, in units of g; replaces --acceleration.",
             ),
             interval("frequency_hz", AXIS, "Frequencies of the pulse, Hz."),
+            *LAW,
             MODEL,
+            NORMALISED_BY,
         ),
         outputs=(
             STORE,
@@ -616,8 +723,17 @@ rocking overturning-spectrum --pulse ricker --height 2 --width 0.5 \\
             ),
             number("replicates", "Number of bootstrap replicates. Default: 1,000."),
             number("seed", "Random seed of samples and bootstrap. Default: 0."),
+            make(
+                "hazard",
+                PathType(),
+                "FILE",
+                "Hazard of the site: a CSV file of levels and annual rates of exceedance. Adds the annual rate.",
+            ),
+            POLARITY,
             MODEL,
+            NORMALISED_BY,
             *READING,
+            COMPONENT,
         ),
         outputs=(
             STORE,
@@ -632,7 +748,10 @@ A curve is the probability of overturning, or of exceeding a limit of the angle,
 --scale 1 alone gives the probability under the records as they are.
 
 All intervals are at 95 % and clustered by record: runs of the same record are not independent. AXIS is START:STOP:COUNT:
-COUNT evenly spaced values, both ends included.""",
+COUNT evenly spaced values, both ends included.
+
+--hazard names a table of two columns: levels, in the unit of the axis unless a title such as "PGA (g)" states another one, and
+the annual rates at which the site exceeds them.""",
         progress=True,
         examples="""
 # The record of the package; name a folder or a table instead.
@@ -643,6 +762,9 @@ rocking fragility example --height 2 --width 0.5 --scale 1
 # An uncertain block: 20 samples per record.
 rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
     --samples 20 --width-spread 0.1 --csv fragility.csv
+# Annual rate of overturning, and its probability in 50 years, at a site.
+rocking fragility records --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
+    --hazard hazard.csv
 """,
     ),
     Command(
@@ -657,8 +779,11 @@ rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
             *levels(),
             INERTIA_RATIO,
             number("seed", "Random seed of the bootstrap. Default: 0."),
+            POLARITY,
             MODEL,
+            NORMALISED_BY,
             *READING,
+            COMPONENT,
         ),
         outputs=(STORE, REPAIR, csv("Write one row per change"), SURVEY_NETCDF, JSON),
         details="A verdict is whether the block overturns. Every run is repeated with five changes: the amplitude ± 1 %, sampling half "
@@ -671,6 +796,78 @@ rocking sensitivity example --height 2 --width 0.5 --pga-g 0.5:1.5:30 \\
 """,
     ),
     Command(
+        "assess",
+        "Write one page on a block under records, for a client.",
+        function="rocking.cli.assess.run",
+        options=(
+            click.Argument(
+                ["file"],
+                type=PathType(),
+                metavar="FILE",
+                help="TOML file with the blocks, the records and the levels. `example` is the one that comes with the package; it is "
+                "written beside the page, to be copied.",
+            ),
+            make(
+                "output",
+                FOLDER,
+                "DIR",
+                "Folder in which the files are written. Default: that of FILE, for `example` the current one.",
+            ),
+            JSON,
+        ),
+        details="Writes FILE as .html, which prints on A4, its tables as .csv and, with the extra `excel`, as .xlsx. FILE has the "
+        "sections [block], [records] and [levels], and may have [hazard] and [uncertain]. The names of its keys state the units. "
+        "The records act as recorded; on a block with unequal sides they act in both directions, of which the worse one counts. "
+        "The key polarity chooses. The default of --polarity in the other commands is + for any block.",
+        examples="""
+# The example, and its file to copy.
+rocking assess example --output cabinet
+# The copy, with your own numbers.
+rocking assess cabinet/example.toml
+""",
+    ),
+    Command(
+        "fit-restitution",
+        "Fit the coefficient of restitution to the times of impacts.",
+        function="rocking.response.fit_restitution.fit_restitution",
+        inputs="requests.fit_restitution",
+        report="reports_motion.FIT_RESTITUTION",
+        options=(
+            click.Argument(
+                ["times"],
+                type=PathType(),
+                metavar="FILE",
+                help="Text file with the times of successive impacts of a free rocking test, in s; lines with # are left out.",
+            ),
+            *quantities("height", "width"),
+            number(
+                "frequency_parameter",
+                "Frequency parameter p, 1/s. Default: that of the block; without one, it is fitted.",
+            ),
+            number("angle", "Largest |Θ| before the first impact, in units of θcr. Default: it is fitted."),
+            number("release", "Time of the release from rest, s. Default: not known."),
+            make(
+                "model",
+                Word("MODELS"),
+                "MODEL",
+                "Equation of motion: slender, for small angles, or full. Default: full with --height and --width, else slender.",
+            ),
+        ),
+        outputs=(
+            plot("Plot the coefficient of each impact over its speed"),
+            csv("Write one row per impact"),
+            NETCDF,
+            JSON,
+        ),
+        details="The block rocks freely on a base at rest. The intervals at 95 % hold for independent errors of the times.",
+        examples="""
+# Times of a test of a block of 2 m × 0.5 m.
+rocking fit-restitution times.txt --height 2 --width 0.5 --plot fit.png
+# A block whose frequency parameter is not known.
+rocking fit-restitution times.txt --json
+""",
+    ),
+    Command(
         "orbits",
         "Search for all periodic orbits up to a period.",
         function="rocking.orbits.find_orbits.find_orbits",
@@ -678,6 +875,7 @@ rocking sensitivity example --height 2 --width 0.5 --pga-g 0.5:1.5:30 \\
         report="reports_orbits.ORBITS",
         options=(
             *quantities(*SYSTEM),
+            *UNSCATTERED,
             MODEL,
             max_period(3),
             number(
@@ -715,6 +913,7 @@ rocking orbits --height 2 --width 1 --acceleration 6 --frequency-hz 1.2 \\
                 varied=tuple(name for name in VARIABLE if name not in ("phase", *START)),
             ),
             *quantities(*START),
+            *UNSCATTERED,
             MODEL,
             number(
                 "at",
@@ -797,6 +996,7 @@ rocking frequency-response --height 2 --width 0.5 --acceleration 4 \\
         options=(
             *quantities(*SYSTEM, kind=ONE_VALUE, varied=VARIABLE),
             *quantities(*START),
+            *UNSCATTERED,
             MODEL,
             make(
                 "sweep",
@@ -813,6 +1013,8 @@ rocking frequency-response --height 2 --width 0.5 --acceleration 4 \\
             ),
         ),
         outputs=(
+            STORE,
+            REPAIR,
             plot("Plot the points over the parameter"),
             csv("Write one row per point, nan in runs that overturned"),
             NETCDF,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -10,14 +11,20 @@ from typing import Any, NamedTuple
 
 import click
 
-from rocking.model.quantity import SYSTEM_QUANTITIES
+from rocking.model.quantity import FRICTION as COEFFICIENT
+from rocking.model.quantity import LEFT_QUANTITIES, SYSTEM_QUANTITIES
 
 NORMALISED = ("amplitude", "period", "frequency")
 SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
 FORCED = (*NORMALISED, *SI, "restitution")
-SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution", "critical_angle")
+MASS_CENTRE = ("offset", "centre_height", "radius_of_gyration")
+"""Options in SI that place the mass centre of a block, and state its inertia."""
+SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution", "critical_angle", *MASS_CENTRE)
 START = ("angle", "velocity")
-SURVEYED = tuple(name for name in (*SYSTEM, *START) if name not in SI)
+SURVEYED = (
+    *(name for name in (*SYSTEM, *START) if name not in (*SI, *MASS_CENTRE)),
+    *LEFT_QUANTITIES,
+)
 """Quantities of a survey, in the order in which they are printed."""
 AMPLITUDES = ("amplitude", "acceleration", "acceleration_g", "displacement")
 FREQUENCIES = ("period", "frequency", "frequency_hz", "period_s")
@@ -61,8 +68,12 @@ def message(error: Exception, names: Mapping[str, str]) -> str:
     from rocking.model.validation import Refusal
 
     if isinstance(error, Refusal):
-        parameters = click.get_current_context().command.params
-        error = error.of({str(each.name): label(each) for each in parameters} | dict(names))
+        context = click.get_current_context()
+        own = {str(each.name): label(each) for each in context.command.params}
+        for law in ("restitution_factor", "restitution_table"):  # typed instead of the coefficient
+            if context.params.get(law) is not None:
+                own["restitution"] = option(law)
+        error = error.of(own | {"braces": option("brace_angle")} | dict(names))
     return reworded(str(error))
 
 
@@ -271,19 +282,87 @@ class Names(Value):
         return tuple(part.strip() for part in parts)
 
 
-class Model(Value):
-    """Equation of motion."""
+class TableType(Value):
+    """Table of the coefficient of restitution: pairs, or a file with two columns; in a study file also a list of pairs."""
+
+    def read(self, name: str, text: str) -> list[list[float]]:
+        """Return the rows in a text, or in the file that it names."""
+        from rocking.model.validation import refusal
+
+        pairs = text.split(",") if ":" in text else []
+        if not pairs:
+            pairs = [line for line in lines_of(name, Path(text)) if not line.startswith("#")]
+        rows = [[number_in(part) for part in re.split(r"[:,;\s]+", pair.strip())] for pair in pairs]
+        if not all(len(row) == 2 and None not in row for row in rows):
+            allowed = "be pairs SPEED:E, separated by commas, or a file with two columns, speed and e"
+            raise ValueError(refusal(name, allowed, text, "example: 0.1:0.95,0.8:0.9"))
+        return rows  # type: ignore[return-value]
+
+    def entry(self, name: str, entry: Any) -> Any:
+        """Return the rows of a list, or of a text."""
+        return entry if isinstance(entry, list) else super().entry(name, entry)
+
+
+class ScatterType(Value):
+    """Scatter of the coefficient of restitution: S, S:SHAPE or S:SHAPE:SEED."""
+
+    def read(self, name: str, text: str) -> tuple[float, str, int]:
+        """Return deviation, shape and seed in a text."""
+        from rocking.model.validation import refusal
+
+        parts = text.split(":")
+        numbers = number_in(parts[0]), number_in(parts[2]) if len(parts) == 3 else 0
+        if len(parts) > 3 or None in numbers:
+            allowed = "be S, S:SHAPE or S:SHAPE:SEED, with numbers S and SEED"
+            raise ValueError(refusal(name, allowed, text, "example: 0.02:normal:1"))
+        return numbers[0], parts[1] if len(parts) > 1 else "normal", numbers[1]  # type: ignore[return-value]
+
+    def entry(self, name: str, entry: Any) -> Any:
+        """Return deviation, shape and seed of a number or a text."""
+        return self.read(name, str(entry)) if isinstance(entry, int | float) else super().entry(name, entry)
+
+
+def lines_of(name: str, path: Path) -> list[str]:
+    """Return the lines of a text file that are not empty; ValueError if it cannot be read."""
+    from rocking.model.validation import refusal
+
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "it is no text in UTF-8"
+        raise ValueError(refusal(name, "name a text file that can be read", str(path), reason)) from error
+    return [line for line in map(str.strip, text.splitlines()) if line]
+
+
+class Word(Value):
+    """One of the words of a tuple of `rocking.model.system`."""
+
+    def __init__(self, words: str) -> None:
+        self.words = words
 
     def read(self, name: str, text: str) -> str:
-        """Return the name of an equation of motion."""
+        """Return a word."""
         return self.entry(name, text)
 
     def entry(self, name: str, entry: Any) -> str:
-        """Return an entry that is the name of an equation of motion."""
-        from rocking.model.system import MODELS
+        """Return an entry that is one of the words."""
+        from rocking.model import system
         from rocking.model.validation import one_of
 
-        return one_of(name, entry, MODELS)
+        return one_of(name, entry, getattr(system, self.words))
+
+
+class Polarity(Value):
+    """Direction of ground motions."""
+
+    def read(self, name: str, text: str) -> Any:
+        """Return the name of a polarity, or its number."""
+        number = number_in(text)
+        return text if number is None else number
+
+    def entry(self, name: str, entry: Any) -> Any:
+        """Return an entry that is a polarity."""
+        return entry if isinstance(entry, str) else NUMBER.entry(name, entry)
 
 
 class Port(Value):
@@ -418,6 +497,10 @@ TEXTS = {name: each.help for name, each in SYSTEM_QUANTITIES.items()} | {
     "displacement": "Amplitude of the base displacement, m; replaces --acceleration.",
     "frequency_hz": "Forcing frequency, Hz.",
     "period_s": "Forcing period, s; replaces --frequency-hz.",
+    "offset": "Distance of the mass centre from the middle of the base, m, towards the edge about which the block turns for "
+    "Θ > 0. Default: 0.",
+    "centre_height": "Height of the mass centre above the base, m. Default: half the height.",
+    "radius_of_gyration": "Radius of gyration about the mass centre, m. Default: that of a uniform rectangle.",
 }
 """Help of the options of a system and an initial state, the same in all commands."""
 
@@ -433,7 +516,7 @@ def quantities(*names: str, kind: Interval | None = None, varied: tuple[str, ...
     ]
 
 
-VARIABLE = tuple(name for name in (*SYSTEM, *START) if name not in ("height", "width"))
+VARIABLE = tuple(name for name in (*SYSTEM, *START) if name not in ("height", "width", *MASS_CENTRE))
 """Quantities that a survey may vary."""
 
 
@@ -449,9 +532,17 @@ def max_period(default: int = 64) -> click.Option:
 
 MODEL = make(
     "model",
-    Model(),
+    Word("MODELS"),
     "MODEL",
-    "Equation of motion for a block in SI: slender, for small angles, or full. Default: slender.",
+    "Equation of motion for a block in SI: full, or slender, for small angles. Default: full under a record or a pulse, slender on "
+    "a harmonic base.",
+)
+NORMALISED_BY = make(
+    "normalised_by",
+    Word("NORMALISATIONS"),
+    "UNIT",
+    "Unit of the base acceleration of a slender block in SI under a record or a pulse: tangent, g tan θcr, at which the real "
+    "block lifts off, or angle, g θcr. Default: tangent.",
 )
 PROVE = switch("prove", "Prove a periodic response in ball arithmetic; needs the extra `proof`.")
 STEP = number(
@@ -468,9 +559,49 @@ INERTIA_RATIO = number(
     "inertia_ratio",
     "Io/(MR²), the normalised moment of inertia about a corner. Default: 4/3, a uniform rectangle.",
 )
+FRICTION = number(
+    COEFFICIENT.name,
+    "Coefficient of friction μ of the base. A motion that needs more is refused: the block slides, from a time that is printed. "
+    "Default: unlimited.",
+)
+POLARITY = make(
+    "polarity",
+    Polarity(),
+    "POLARITY",
+    'Direction of the records: "+" as recorded, "-" reversed, "both", or "worse", of both runs the one that is worse for the '
+    "block. No effect on a symmetric block at rest. Default: +.",
+)
+LAW = (
+    number("restitution_factor", "Factor of Housner's coefficient of restitution; replaces --restitution."),
+    make(
+        "restitution_table",
+        TableType(),
+        "ROWS",
+        "Coefficient of restitution over the speed before the impact, rad/s: pairs SPEED:E, separated by commas, or a file with "
+        "two columns; replaces --restitution; needs --model full.",
+    ),
+    make(
+        "restitution_scatter",
+        ScatterType(),
+        "S",
+        "Scatter of the coefficient of restitution from impact to impact: S, S:SHAPE or S:SHAPE:SEED. S is the deviation, SHAPE "
+        "normal (default) or uniform, SEED a random seed (default: 0). It needs --model full.",
+    ),
+)
+"""Options of the law of restitution of a block in SI."""
+RECORD = click.Argument(
+    ["file"],
+    type=RecordFile(),
+    metavar="FILE",
+    help="Record file; its format is recognised by the content. `example` is the record that comes with the package.",
+)
+CHANNEL = number("channel", "Channel of the file, counted from 1.", 1)
 READING = (
     make("units", TEXT, "UNIT", "Unit of the samples, if the file does not state it: m/s2, cm/s2, g, …."),
-    number("step", "Time between two samples, s, if the file does not state it."),
+    number(
+        "step",
+        "Time between two samples, s, if the file does not state it, or prints rounded times; uneven times are resampled.",
+    ),
     make(
         "baseline",
         TEXT,
@@ -479,6 +610,12 @@ READING = (
     ),
 )
 """Options that state how records are read."""
+COMPONENT = make(
+    "component",
+    TEXT,
+    "RULE",
+    "Horizontal components of each station: all, first, or larger, that of the larger PGA. Default: all.",
+)
 SOURCES = click.Argument(
     ["sources"],
     type=RecordFile(),
@@ -495,15 +632,20 @@ LEVELS = {
     "pgv": "peak ground velocity, m/s",
     "pgd": "peak ground displacement, m",
     "arias": "Arias intensity, m/s",
+    "cav": "cumulative absolute velocity, m/s",
     "pga_ratio": "peak ground acceleration over g tan θcr",
     "pgv_ratio": "α times the peak ground velocity, over g tan θcr",
+    "sa": "pseudo-acceleration at the period of --sa-period, damping 5 %, m/s²",
 }
 """Options whose value is the axis of the levels, and the intensity measure of each."""
+SA_PERIOD = "sa_period"
+"""Option of the period of the measure `sa`."""
 
 
 def levels(kind: Interval = AXIS) -> list[click.Option]:
     """Make the options of the levels of each intensity measure."""
-    return [interval(name, kind, f"Levels: {text}.") for name, text in LEVELS.items()]
+    period = number(SA_PERIOD, "Natural period of --sa, s.")
+    return [*(interval(name, kind, f"Levels: {text}.") for name, text in LEVELS.items()), period]
 
 
 def scaling(kind: Value, records: str, scale: str) -> list[click.Option]:

@@ -21,7 +21,7 @@ from rocking.model.files import (
     replacing_hdf5,
     resolve_path,
 )
-from rocking.model.tables_and_json import json_text
+from rocking.model.tables_and_json import as_typed, json_text
 from rocking.model.text import formatted_path
 from rocking.survey import export
 
@@ -32,7 +32,14 @@ Row = tuple[str, ...]
 Table = Mapping[str, Any]
 """Columns by heading."""
 WARNING = "warning: "
-INPUT_FILES = {"study": "the study file", "file": "the record", "sources": "a record"}
+INPUT_FILES = {
+    "study": "the study file",
+    "file": "the record",
+    "second": "the record of --second",
+    "sources": "a record",
+    "times": "the file of times",
+    "hazard": "the table of the hazard",
+}
 """Parameters of commands whose values are input files, and what these are in messages."""
 
 
@@ -117,7 +124,8 @@ def write_csv(tables: Iterable[Table], path: Path) -> None:
         for number, table in enumerate(tables):
             if number == 0:
                 writer.writerow(table)
-            writer.writerows(zip(*(column.tolist() for column in table.values()), strict=True))
+            columns = (as_typed(name, column).tolist() for name, column in table.items())
+            writer.writerows(zip(*columns, strict=True))
 
 
 # Reports.

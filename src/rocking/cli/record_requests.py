@@ -11,14 +11,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 
-from rocking.cli.options import LEVELS, InvalidInput, option, refusals
+from rocking.cli.options import LEVELS, MASS_CENTRE, SA_PERIOD, InvalidInput, option, refusals
 from rocking.cli.requests import (
+    LAWS,
     Options,
     Request,
     braces_of,
+    check_friction,
     own_arguments,
     require,
+    restitution_of,
     select,
     start_of,
     values_of,
@@ -26,13 +30,18 @@ from rocking.cli.requests import (
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
-from rocking.model.record_set import RecordSet
+from rocking.model.intensity import PERIODS
+from rocking.model.record_set import RecordSet, intensity_of
+from rocking.model.stations import turned
+from rocking.model.system import State, System
 from rocking.model.text import formatted_path, listed
 from rocking.model.validation import RecordError, refuse_if, within
+from rocking.survey.overturning_rate import hazard_curve
 
 MIN_PGA, MAX_PGA = 1e-9, 1e5
 OMIT = "omit it for the record as it is"
 READING = ("units", "step", "baseline")
+OF_SET = (*READING, "component")
 OF_BASELINE = ("pgv", "pgd", "pgv_ratio")
 """Options of levels that a wrong baseline changes most."""
 NAMES = {"pga": "--pga-g", "factor": "--scale"}
@@ -43,7 +52,12 @@ def block_in_si(options: Options) -> Block:
     """Return the block of the options in SI; InvalidInput if invalid."""
     require(options, (("height",), ("width",)), "--height and --width")
     with refusals(NAMES):
-        return Block(options["height"], options["width"], **select(options, "restitution", "inertia_ratio"))
+        return Block(
+            options["height"],
+            options["width"],
+            restitution_of(options),
+            **select(options, "inertia_ratio", *MASS_CENTRE),
+        )
 
 
 @contextmanager
@@ -56,7 +70,7 @@ def reading(names: Mapping[str, str]) -> Iterator[list[str]]:
             yield sentences
         except RecordError as error:
             raise InvalidInput(as_options(str(error))) from error
-    sentences += [str(warning.message) for warning in caught]
+    sentences += [as_options(str(warning.message)) for warning in caught]
 
 
 def as_options(text: str) -> str:
@@ -72,12 +86,47 @@ def as_options(text: str) -> str:
 def record(options: Options) -> Request:
     """Return the request of a motion under a recorded ground motion."""
     block, braces, start = block_in_si(options), braces_of(options), start_of(options)
+    check_friction(options)
     ground, sentences = ground_motion(options)
     with refusals(NAMES):
-        system = block.system(ground, braces=braces, model=options.get("model", "slender"))
-    files = tuple(name for name in ("plot", "animate", "csv", "netcdf") if name in options)
+        grounds = [ground if sign > 0 else ground.reversed() for sign in directions(options)]
+        how = select(options, "model", "normalised_by")
+        systems = [block.system(each, braces=braces, **how) for each in grounds]
+        place = worse(systems, start)
+    system, ground = systems[place], grounds[place]
+    counted = ("+", "-")[place] if len(grounds) > 1 else ""
+    files = tuple(name for name in ("plot", "animate", "csv", "netcdf", "friction") if name in options)
     arguments = {"system": system, "start": start, "cycles": None, "files": files}
-    return Request(arguments, options, block, NAMES, sentences, records=ground)
+    return Request(arguments, options, system.block, NAMES, sentences, records=ground, counted=counted)
+
+
+def sliding(options: Options) -> Request:
+    """Return the request of the slip of a block under a recorded ground motion."""
+    require(options, (("friction",),), "--friction")
+    check_friction(options)
+    ground, sentences = ground_motion(options)
+    arguments = {"ground": ground, "friction": options["friction"]}
+    return Request(arguments, options, names=NAMES, warnings=sentences, records=ground)
+
+
+def directions(options: Options) -> list[float]:
+    """Return the polarities of one record, as signs; both for the worse one. InvalidInput for any other polarity."""
+    from rocking.survey.spec import WORSE, checked_polarity
+
+    polarity = checked_polarity(options.get("polarity", "+"))
+    refuse_if(np.ndim(polarity), "polarity", 'be "+", "-" or "worse" for one record', options.get("polarity"))
+    return [1.0, -1.0] if polarity == WORSE else [float(polarity)]
+
+
+def worse(systems: Sequence[System], start: State) -> int:
+    """Return the place of the motion that is worse for the block: it alone overturns, or it has the larger peak."""
+    if len(systems) == 1:
+        return 0
+    from rocking.motion.simulate import simulate
+
+    motions = [simulate(each, start, record="none") for each in systems]
+    harm = [(each.overturning is not None, each.peak) for each in motions]
+    return harm.index(max(harm))
 
 
 def check_scaling(options: Options) -> None:
@@ -91,17 +140,76 @@ def ground_motion(options: Options) -> tuple[GroundMotion, list[str]]:
     from rocking.records.read import read_ground_motion
 
     check_scaling(options)
+    check_direction(options)
     with reading(NAMES) as sentences:
         ground = read_ground_motion(options["file"], **select(options, "channel", *READING))
-    with refusals(NAMES):
+        other = None
+        if "azimuth_deg" in options:
+            refuse_vertical(ground, options)
+            other = other_component(options)
+            if other.step == ground.step and other.times.size != ground.times.size:
+                shorter = min(ground.duration, other.duration)
+                samples = f"{ground.times.size:,} and {other.times.size:,} samples"
+                sentences.append(f"the two components have {samples}: both end at {shorter:g} s")
+                ground, other = ground.clipped(end=shorter), other.clipped(end=shorter)
+            elif other.step != ground.step:
+                steps = f"{ground.step:g} s and {other.step:g} s"
+                raise InvalidInput(
+                    f"--azimuth-deg needs two components with the same step; got {steps} (resample one of them in Python, by "
+                    f".resampled({min(ground.step, other.step):g}))"
+                )
+    floor = {"period": "--floor-period", "damping": "--floor-damping"}
+    with refusals({**NAMES, **floor, "other": "the other component"}):
+        if other is not None:
+            turn = within("azimuth_deg", options["azimuth_deg"], -360, 360, "°")
+            ground = turned(ground, other, math.radians(turn))
         if "pga_g" in options:
             pga = within("pga_g", options["pga_g"], MIN_PGA, MAX_PGA, "g", if_below=OMIT)
             ground = ground.scaled(pga=GRAVITY * pga)
         elif "scale" in options:
             refuse_if(options["scale"] == 0, "scale", "not be 0", 0, OMIT)
             ground = ground.scaled(options["scale"])
+        if "floor_period" in options:
+            damping = {"damping": options["floor_damping"]} if "floor_damping" in options else {}
+            ground = ground.floor(options["floor_period"], **damping)
     vertical = vertical_sentence([ground.component]) if ground.vertical else ""
     return ground, [*sentences, *filter(None, (vertical, as_options(ground.drift_doubt)))]
+
+
+def check_direction(options: Options) -> None:
+    """Raise InvalidInput for options of a second component or a floor without the one that uses them."""
+    for name, needed in (("second", "azimuth_deg"), ("floor_damping", "floor_period")):
+        if name in options and needed not in options:
+            raise InvalidInput(f"{option(name)} needs {option(needed)}")
+
+
+def refuse_vertical(ground: GroundMotion, options: Options) -> None:
+    """Raise InvalidInput for a vertical component that is to be turned."""
+    if ground.vertical:
+        which = f"channel {options.get('channel', 1)} of the file"
+        raise InvalidInput(
+            f"--azimuth-deg needs a horizontal component; {which}, {ground.component!r}, is vertical (give another --channel)"
+        )
+
+
+def other_component(options: Options) -> GroundMotion:
+    """Return the component towards which `--azimuth-deg` turns; InvalidInput if the file has not two horizontal ones."""
+    from rocking.records.read import read_ground_motion, read_ground_motions
+
+    reading_so = select(options, *READING)
+    if "second" in options:
+        return read_ground_motion(options["second"], **reading_so)
+    motions = read_ground_motions(options["file"], **reading_so)
+    others = [
+        each
+        for number, each in enumerate(motions, 1)
+        if number != options.get("channel", 1) and not each.vertical
+    ]
+    if len(others) != 1:
+        raise InvalidInput(
+            f"--azimuth-deg needs one other horizontal channel; the file has {len(others)} (give --second)"
+        )
+    return others[0]
 
 
 # A set of records.
@@ -114,7 +222,7 @@ def record_set(options: Options) -> tuple[RecordSet, list[str]]:
     sources = options["sources"]
     with reading({"source": "SOURCE"}) as sentences:
         records = read_record_set(
-            sources[0] if len(sources) == 1 else list(sources), **select(options, *READING)
+            sources[0] if len(sources) == 1 else list(sources), **select(options, *OF_SET)
         )
     check_no_record(select(options, "plot", "csv", "netcdf"), records)
     return records, sentences
@@ -154,6 +262,7 @@ def scaled_records(options: Options) -> Request:
         got = " and ".join(map(option, measures)) or "none"
         raise InvalidInput(f"give exactly one of {', '.join(map(option, LEVELS))}; got {got}")
     (measure,) = measures
+    intensity = measure_of(measure, options)
     block = block_in_si(options)
     records, sentences = record_set(options)
     if measure in OF_BASELINE:
@@ -161,18 +270,34 @@ def scaled_records(options: Options) -> Request:
     others = {
         name: value
         for name, value in own_arguments(options).items()
-        if name not in (*LEVELS, *READING, "inertia_ratio")
+        if name not in (*LEVELS, SA_PERIOD, *OF_SET, *MASS_CENTRE, "inertia_ratio")
     }
     arguments = {
         "records": records,
         "block": block,
         "levels": values_of(options[measure]),
-        "intensity": measure.replace("_", "-"),
+        "intensity": intensity,
         **others,
-        **select(options, "model"),
+        **select(options, "model", "normalised_by"),
     }
     names = {"records": "SOURCE", "levels": option(measure)}
     return Request(arguments, options, block, names, sentences, records=records)
+
+
+def incremental_dynamic_analysis(options: Options) -> Request:
+    """Return the request of an incremental dynamic analysis."""
+    return overturning_set(options)
+
+
+def measure_of(name: str, options: Options) -> str:
+    """Return the intensity measure of an option of the levels; InvalidInput if --sa-period stands without --sa, or --sa without it."""
+    if (name == "sa") != (SA_PERIOD in options):
+        got, missing = ("--sa", "--sa-period") if name == "sa" else ("--sa-period", "--sa")
+        raise InvalidInput(f"{got} needs {missing}, too")
+    if name != "sa":
+        return name.replace("_", "-")
+    with refusals():
+        return f"sa({within('--sa-period', options[SA_PERIOD], *PERIODS, 's'):.15g})"
 
 
 def overturning_set(options: Options) -> Request:
@@ -196,6 +321,10 @@ def fragility(options: Options) -> Request:
     arguments["levels"] = np.atleast_1d(arguments["levels"])
     arguments["limits"] = arguments.pop("limit", ())
     request.names["limits"] = option("limit")
+    if "hazard" in options:
+        measure, _ = intensity_of(arguments["intensity"], request.records)
+        with refusals():
+            return evolve(request, hazard=hazard_curve(options["hazard"], measure.unit))
     return request
 
 
@@ -207,15 +336,26 @@ def spectrum(options: Options) -> Request:
     arguments = {
         name: values_of(value)
         for name, value in select(
-            options, "size", "restitution", "inertia_ratio", "model", "repair", "store"
+            options,
+            *("size", "restitution", "inertia_ratio", "polarity", "model", "normalised_by"),
+            *("repair", "store"),
         ).items()
     }
+    of_one_block = [name for name in (*LAWS, *MASS_CENTRE) if name in options]
+    if of_one_block and not isinstance(options.get("restitution", 0.0), int | float):
+        raise InvalidInput(f"--restitution must be a number with {option(of_one_block[0])}; got an axis")
+    if any(name in options for name in LAWS):
+        arguments["restitution"] = restitution_of(options)
     check_scaling(options)
     if "scale" in options:
         arguments["levels"] = values_of(options["scale"])
     if "pga_g" in options:
         arguments |= {"levels": values_of(options["pga_g"]), "intensity": "pga-g"}
     arguments |= shape(options)
+    if "block" in arguments:  # it has them
+        arguments = {
+            name: arguments[name] for name in arguments if name not in ("restitution", "inertia_ratio")
+        }
     names = {
         "levels": option("pga_g" if "pga_g" in options else "scale"),
         "slenderness": "--slenderness-deg, in rad,",
@@ -230,7 +370,7 @@ def spectrum(options: Options) -> Request:
 
 
 def shape(options: Options) -> dict[str, Any]:
-    """Return size and slenderness of the blocks; InvalidInput if something is missing or given twice."""
+    """Return size and slenderness of the blocks, or a block with a mass centre; InvalidInput for something missing or given twice."""
     sides = [name for name in ("height", "width") if name in options]
     if sides and "slenderness_deg" in options:
         raise InvalidInput(
@@ -239,6 +379,8 @@ def shape(options: Options) -> dict[str, Any]:
     result = {"size": values_of(options["size"])} if "size" in options else {}
     if "slenderness_deg" in options:
         result["slenderness"] = radians(values_of(options["slenderness_deg"]))
+    if select(options, *MASS_CENTRE):
+        return {"block": block_in_si(options)} | result
     if len(sides) == 2:
         with refusals():
             block = Block(options["height"], options["width"], 0.5)
@@ -272,6 +414,6 @@ def check_plot(arguments: Mapping[str, Any], names: Mapping[str, str], records: 
             )
     if not varied:
         raise InvalidInput("--plot needs an axis: give --size or --slenderness-deg as START:STOP:COUNT")
-    if records > 1 and "size" in varied and np.size(arguments["slenderness"]) > MOST_SLENDERNESSES:
+    if records > 1 and "size" in varied and np.size(arguments.get("slenderness", 0.0)) > MOST_SLENDERNESSES:
         most = f"at most {MOST_SLENDERNESSES} values of --slenderness-deg"
         raise InvalidInput(f"--plot draws one record, or {most}; got {records} records")

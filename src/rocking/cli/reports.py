@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rocking.cli.output import WARNING, Row
 from rocking.model.block import Block
-from rocking.model.block_formulas import GRAVITY
+from rocking.model.block_formulas import GRAVITY, with_unit
 from rocking.model.forcing import Pulse
 from rocking.model.quantity import IN_SI
-from rocking.model.system import System, angle_doubt
+from rocking.model.system import LeftSide, System, angle_doubt
 from rocking.model.text import counted
 from rocking.model.verdict import Verdict
 
@@ -42,10 +42,15 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
         yield "", "normalised", "in SI"
         yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
         yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
-        if system.critical_angle is not None:
-            yield "equation of motion", "full", ""
+        unit = ", a/(g tan θcr)" if block.normalised_by == "tangent" else ""
+        slender = system.critical_angle is None
+        yield "equation of motion", f"small angles{unit}" if slender else "full", ""
+        if block.left is not None:
+            yield "left side", left_text(system.left), f"{math.degrees(block.critical_angles[1]):.4g}°"
     elif system.critical_angle is not None:
         yield "critical angle", f"θcr = {system.critical_angle:.6g} rad, full equation of motion", ""
+    if block is None and system.left is not None:
+        yield "left side", left_text(system.left), ""
     yield from base_rows(system, block)
     if block is None:
         yield "restitution", f"e = {restitution:.6g}", ""
@@ -54,6 +59,13 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
     if braces is not None:
         at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
         yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
+
+
+def left_text(left: LeftSide | None) -> str:
+    """Return the left side of an unsymmetric block in units of the right one."""
+    if left is None:
+        return "as the right one"
+    return f"θcr2 = {left.angle_ratio:.6g}, α2 = {left.frequency_ratio:.6g}, e21 = {left.restitution:.6g}"
 
 
 def base_rows(system: System, block: Block | None) -> Iterator[Row]:
@@ -74,9 +86,23 @@ def base_rows(system: System, block: Block | None) -> Iterator[Row]:
         yield "phase", f"φ = {forcing.phase:.6g}", f"{math.degrees(forcing.phase):.4g}°"
 
 
+def law_text(block: Block | None) -> str:
+    """Return the law of restitution of a block, if it is not one number."""
+    return "" if block is None or block.law.is_plain else str(block.law)
+
+
 def origin(block: Block) -> str:
     """Return the origin of the coefficient of restitution of a block, in words."""
-    return "Housner's value for this block" if block.has_housner_restitution else "as given"
+    law = block.law
+    if law.is_plain:
+        return (
+            "Housner's value for this block"
+            if law.is_housner
+            else law.origin
+            if law.value is None
+            else "as given"
+        )
+    return str(law)
 
 
 def in_si(name: str, values: Any, block: Block | None) -> str:
@@ -115,34 +141,53 @@ def state_in_si(state: Any, block: Block) -> str:
     return f"{in_si('angle', state.angle, block)}, {in_si('velocity', state.velocity, block)}"
 
 
-def equation(critical_angle: float, *, full: bool, braced: bool = False) -> str:
-    """Return the equation of motion in words, that of small angles with its errors for |θ| ≤ θcr, in rad."""
+def equation(
+    critical_angle: float,
+    left_angle: float | None = None,
+    *,
+    full: bool,
+    braced: bool = False,
+    normalised_by: str = "angle",
+) -> str:
+    """Return the equation of motion in words, that of small angles with its errors for |θ| ≤ θcr, in rad, on both sides."""
     from rocking.motion.model_warnings import slender_errors
 
     if full:
         return "full"
-    worst = max(slender_errors(critical_angle, critical_angle))
+    reached = max(critical_angle, left_angle or 0.0)
+    worst = max(slender_errors(critical_angle, reached, normalised_by, left_angle))
     remedy = "" if braced else " (--model full avoids this)"
-    return f"small angles; moments overestimated by up to {100.0 * worst:.1f} %{remedy}"
+    what = {"angle": "moments overestimated", "tangent": "a/(g tan θcr), moments wrong"}[normalised_by]
+    return f"small angles; {what} by up to {100.0 * worst:.1f} %{remedy}"
 
 
-def equation_line(block: Block, model: str) -> str:
+def equation_line(block: Block, attributes: Mapping[str, Any]) -> str:
     """Return the equation of motion of a survey of one block, as a line below a table with a row per record."""
-    return f"equation of motion: {equation(block.critical_angle, full=model == 'full')}"
+    full, by = attributes["model"] == "full", attributes.get("normalised_by", "angle")
+    return f"equation of motion: {equation(*block.critical_angles, full=full, normalised_by=by)}"
 
 
-def survey_warnings(block: Block, model: str) -> list[str]:
-    """Return the warnings about the block of a survey of ground motions."""
-    return block_warnings(block, (), block.restitution, full=model == "full")
+def survey_warnings(block: Block, attributes: Mapping[str, Any]) -> list[str]:
+    """Return the warnings about the block of a survey of ground motions with these attributes."""
+    block = with_unit(block, attributes.get("normalised_by", "angle"))
+    return block_warnings(block, (), block.restitution, full=attributes["model"] == "full")
 
 
-def shape_warnings(height: float, critical_angle: float, *, full: bool) -> Iterator[str]:
-    """Yield the warnings about blocks of many shapes, up to a height in m and a critical angle in rad."""
+def shape_warnings(
+    height: float,
+    critical_angle: float,
+    left_angle: float | None = None,
+    *,
+    full: bool,
+    normalised_by: str = "angle",
+) -> Iterator[str]:
+    """Yield the warnings about blocks of many shapes, up to a height in m and a critical angle of each side in rad."""
     from rocking.motion.model_warnings import height_warnings, proportion_warnings
 
     yield from height_warnings(height)
     if not full:
-        yield from proportion_warnings(critical_angle, critical_angle)
+        reached = max(critical_angle, left_angle or 0.0)
+        yield from proportion_warnings(critical_angle, reached, normalised_by, left_angle)
 
 
 def block_warnings(
@@ -153,7 +198,8 @@ def block_warnings(
         return []
     from rocking.motion.model_warnings import block_warnings as sentences
 
-    return list(sentences(block, amplitudes, float(np.min(restitutions)), full=full))
+    left = None if block.left is None else block.left_restitution
+    return list(sentences(block, amplitudes, float(np.min(restitutions)), left_restitution=left, full=full))
 
 
 def warning_lines(sentences: Iterable[str]) -> list[str]:

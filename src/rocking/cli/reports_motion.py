@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import attrs
@@ -28,11 +29,14 @@ from rocking.model.system import State, System
 from rocking.model.tables_and_json import headed
 from rocking.model.text import counted, ordinal
 from rocking.model.verdict import Outcome, Verdict
-from rocking.motion.motion import has_cycles
+from rocking.motion.motion import has_cycles, margin_speed
 
 if TYPE_CHECKING:
     from rocking.cli.requests import Request
     from rocking.motion.motion import Motion
+    from rocking.motion.sliding import Slip
+    from rocking.motion.validity import Validity
+    from rocking.response.fit_restitution import RestitutionFit
 
 ROWS_AT_ONCE = 100_000
 MAX_CYCLES_KEPT = 100_000
@@ -92,8 +96,21 @@ def tables(motion: Motion, request: Request) -> Iterator[dict[str, Any]]:
 def motion_text(motion: Motion, request: Request) -> Text:
     """Return the summary."""
     block = request.block
-    lines = [*angle_warning(motion.start.angle, block), *validity_lines(motion, block)]
-    return Text(outcome_text(motion), [*input_rows(motion, block), *motion_rows(motion, block)], lines)
+    friction = request.options.get("friction")
+    lines = [*angle_warning(motion.start.angle, block), *validity_lines(motion, block, friction)]
+    title = refusal(motion, block, friction) or outcome_text(motion)
+    return Text(title, [*input_rows(motion, block), *motion_rows(motion, block)], lines)
+
+
+def refusal(motion: Motion, block: Block | None, friction: float | None) -> str:
+    """Return the sentence on a motion that needs more friction than there is; empty for any other."""
+    return "" if friction is None or block is None else assessed(motion, block, friction).refusal
+
+
+@lru_cache(maxsize=1)
+def assessed(motion: Motion, block: Block, friction: float | None) -> Validity:
+    """Return the validity report of a motion, which several parts of a report need."""
+    return motion.validity(block, friction=friction)
 
 
 def outcome_text(motion: Motion) -> str:
@@ -121,14 +138,21 @@ def motion_rows(motion: Motion, block: Block | None) -> Iterator[Row]:
         yield "brace impacts", f"{motion.brace_hits}{cut_note(motion, 'sustained contact')}", ""
     if motion.overturning is None:
         yield "largest |Θ|", f"{motion.peak:.6g}", reach(motion.peak, block)
+    for name, outcome in other_equation(motion):
+        yield name, outcome, ""
     if not math.isnan(motion.margin):
         at = "" if block is None else f" = {block.seconds(motion.margin_time):.4g} s"
-        yield "margin K₊", f"{motion.margin:.6g}", f"at τ = {motion.margin_time:.6g}{at}"
+        yield margin_name(motion), f"{motion.margin:.6g}", f"at τ = {motion.margin_time:.6g}{at}"
     yield (
         "final state" if motion.overturning is None else f"state when overturning was {word_for(motion)}",
         f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
         "" if block is None else state_in_si(motion.final, block),
     )
+
+
+def margin_name(motion: Motion) -> str:
+    """Return the name of the margin with its symbol, that of the slender or the full block."""
+    return "margin K₊" if motion.system.critical_angle is None else "margin K"
 
 
 def word_for(motion: Motion) -> str:
@@ -142,14 +166,29 @@ def cut_note(motion: Motion, end: str) -> str:
 
 
 def motion_validity(motion: Motion, request: Request) -> dict[str, Any]:
-    """Return the validity report as a JSON object; empty without a block."""
+    """Return the motion by the other equation and the validity report as JSON objects; empty without a block."""
     block = request.block
     if block is None:
         return {}
+    other = {} if has_cycles(motion) else {"other_equation": other_record(motion, block)}
+    friction = request.options.get("friction")
     return {
         "peak_top_displacement_m": float(block.top_displacement(motion.peak)),
-        "validity": validity_record(motion, block),
+        **other,
+        "validity": validity_record(motion, block, friction),
+        **({"outcome": "slides"} if refusal(motion, block, friction) else {}),
     }
+
+
+def other_record(motion: Motion, block: Block) -> dict[str, Any] | None:
+    """Return the motion by the other equation as a JSON object, without a largest angle if it overturns; None if it does not differ."""
+    from rocking.motion.validity import other_motion
+
+    other = other_motion(motion)
+    if other is None:
+        return None
+    peak = None if math.isinf(other.peak) else float(block.radians(other.peak))
+    return {"model": other.model, "outcome": str(other.outcome), "peak_rad": peak}
 
 
 SIMULATE = Report(motion_text, more=motion_validity, rows=tables)
@@ -158,12 +197,12 @@ SIMULATE = Report(motion_text, more=motion_validity, rows=tables)
 # Validity of the model.
 
 
-def validity_lines(motion: Motion, block: Block | None) -> list[str]:
+def validity_lines(motion: Motion, block: Block | None, friction: float | None = None) -> list[str]:
     """Return the lines of the validity report of a motion; none without a block."""
     if block is None:
         return []
     return (
-        str(motion.validity(block)).splitlines()
+        str(assessed(motion, block, friction)).splitlines()
         if motion.record == "all"
         else warning_lines([unchecked(motion)])
     )
@@ -176,11 +215,11 @@ def unchecked(motion: Motion) -> str:
     return f"sliding and jumping of the block were not checked: {why}"
 
 
-def friction_row(motion: Motion, block: Block) -> Iterator[Row]:
+def friction_row(motion: Motion, block: Block, friction: float | None) -> Iterator[Row]:
     """Yield the row of the friction required, with its time in s, if the events were kept."""
     if motion.record != "all":
         return
-    validity = motion.validity(block)
+    validity = assessed(motion, block, friction)
     if validity.friction is None or validity.friction_time is None:
         yield "friction required", "not assessed"
     else:
@@ -191,16 +230,16 @@ def friction_row(motion: Motion, block: Block) -> Iterator[Row]:
         )
 
 
-def validity_warnings(motion: Motion, block: Block) -> list[str]:
+def validity_warnings(motion: Motion, block: Block, friction: float | None) -> list[str]:
     """Return the warnings of the validity report of a motion as lines."""
     return warning_lines(
-        list(motion.validity(block).warnings) if motion.record == "all" else [unchecked(motion)]
+        list(assessed(motion, block, friction).warnings) if motion.record == "all" else [unchecked(motion)]
     )
 
 
-def validity_record(motion: Motion, block: Block) -> dict[str, Any] | None:
+def validity_record(motion: Motion, block: Block, friction: float | None = None) -> dict[str, Any] | None:
     """Return the validity report as a JSON object; None if the events were not kept."""
-    return attrs.asdict(motion.validity(block)) if motion.record == "all" else None
+    return attrs.asdict(assessed(motion, block, friction)) if motion.record == "all" else None
 
 
 def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
@@ -223,10 +262,12 @@ def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
 def record_text(motion: Motion, request: Request) -> Text:
     """Return the summary, with the warnings of the reader."""
     block, ground = block_of(request), request.records
-    rows = [*of_ground(ground), *of_block(motion, block), *record_rows(motion, block)]
+    friction = request.options.get("friction")
+    rows = [*of_ground(ground), *of_direction(request), *of_block(motion, block)]
+    rows += record_rows(motion, block, friction)
     lines = warning_lines([*request.warnings, *undecided(motion)])
-    lines += [*angle_warning(motion.start.angle, block), *validity_warnings(motion, block)]
-    return Text(record_outcome(motion, block), rows, lines)
+    lines += [*angle_warning(motion.start.angle, block), *validity_warnings(motion, block, friction)]
+    return Text(refusal(motion, block, friction) or record_outcome(motion, block), rows, lines)
 
 
 def block_of(request: Request) -> Block:
@@ -269,7 +310,7 @@ def record_outcome(motion: Motion, block: Block) -> str:
 
 def undecided(motion: Motion) -> Iterator[str]:
     """Yield a warning if rounding may have changed the outcome."""
-    if not motion.certified and motion.system.critical_angle is None:
+    if not motion.certified:
         yield "the outcome is undecided in double precision: the rounding error may exceed what decides it"
 
 
@@ -284,6 +325,8 @@ def of_ground(ground: GroundMotion) -> Iterator[Row]:
     yield "samples", f"{count}, step {ground.step:g} s, {ground.duration:.6g} s"
     treated = "as in the file" if ground.baseline == "none" else f"{ground.baseline} removed"
     yield "baseline", treated
+    for each in ground.changes:
+        yield "changed", each
     if ground.factor != 1.0:
         yield "scaled by", f"{ground.factor:.6g}"
     yield "PGA", f"{ground.pga:.4g} m/s² = {ground.pga / GRAVITY:.4g} g"
@@ -293,32 +336,66 @@ def of_ground(ground: GroundMotion) -> Iterator[Row]:
     yield "PGV", f"{ground.pgv:.4g} m/s"
     yield "PGD", f"{ground.pgd:.4g} m, drift {ground.displacement[-1]:.4g} m at the end"
     yield "Arias intensity", f"{ground.arias_intensity:.4g} m/s"
+    yield "CAV", f"{ground.cav:.4g} m/s"
     yield "significant duration", f"{ground.significant_duration:.4g} s"
+    yield "bracketed duration", f"{ground.bracketed_duration():.4g} s, above 0.05 g"
+
+
+def of_direction(request: Request) -> Iterator[Row]:
+    """Yield the row of the direction that counts, where both were followed."""
+    if request.counted:
+        told = {"+": "as recorded", "-": "opposite to that recorded"}[request.counted]
+        yield "worse direction", f"{request.counted}, {told}"
 
 
 def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     """Yield the rows of the block and its initial state."""
     yield "block", f"{block.size}, Io/(MR²) = {block.inertia_ratio:.4g}"
-    yield "critical angle", f"{block.degrees(1.0):.4g}°"
+    angles = [f"{math.degrees(angle):.4g}°" for angle in block.critical_angles]
+    sides = f" for θ > 0, {angles[1]} for θ < 0" if block.left is not None else ""
+    yield "critical angle", f"{angles[0]}{sides}"
     full = motion.system.critical_angle is not None
     braced = motion.system.braces is not None
-    yield "equation of motion", equation(block.critical_angle, full=full, braced=braced)
+    yield (
+        "equation of motion",
+        equation(*block.critical_angles, full=full, braced=braced, normalised_by=block.normalised_by),
+    )
     yield "time unit 1/α", f"{block.seconds(1.0):.4g} s"
-    yield "lift-off from rest", f"above {in_si('amplitude', motion.system.lift_off, block)}"
-    yield "restitution", f"e = {block.restitution:.6g}, {origin(block)}"
+    yield "lift-off from rest", lift_off_text(motion.system, block)
+    left = "" if block.left is None else f" for θ > 0, {block.left_restitution:.6g} for θ < 0"
+    yield "restitution", f"e = {block.restitution:.6g}{left}, {origin(block)}"
     braces = motion.system.braces
     if braces is not None:
         yield "braces", f"{block.degrees(braces.angle):.4g}°, r = {braces.restitution:.6g}"
     yield "initial state", state_in_si(motion.start, block)
 
 
-def record_rows(motion: Motion, block: Block) -> Iterator[Row]:
+def lift_off_text(system: System, block: Block) -> str:
+    """Return the base accelerations of lift-off; of a block with unequal sides, that of each direction."""
+    right, left = (in_si("amplitude", level, block) for level in system.lift_offs)
+    if block.left is None:
+        return f"above {right}"
+    return f"to θ > 0 below −{right.replace('= ', '= −')}, to θ < 0 above {left}"
+
+
+def record_rows(motion: Motion, block: Block, friction: float | None) -> Iterator[Row]:
     """Yield the rows of the result."""
     yield "impacts", counted_impacts(motion)
     if motion.overturning is None:
-        yield "largest |θ|", f"{reach(motion.peak, block)}, {motion.peak:.4g} θcr"
-    yield "margin K₊", margin_text(motion, block)
-    yield from friction_row(motion, block)
+        side = "" if block.left is None else " of θ > 0"
+        yield "largest |θ|", f"{reach(motion.peak, block)}, {motion.peak:.4g} θcr{side}"
+    yield margin_name(motion), margin_text(motion, block)
+    yield from other_equation(motion)
+    yield from friction_row(motion, block, friction)
+
+
+def other_equation(motion: Motion) -> Iterator[Row]:
+    """Yield the row of the outcome by the other equation of motion, if it differs."""
+    from rocking.motion.validity import compared
+
+    name, outcome = compared(motion)
+    if name:
+        yield name, outcome
 
 
 def counted_impacts(motion: Motion) -> str:
@@ -330,10 +407,11 @@ def counted_impacts(motion: Motion) -> str:
 def margin_text(motion: Motion, block: Block) -> str:
     """Return the margin with its time, in words."""
     if math.isnan(motion.margin):
-        if motion.system.critical_angle is not None:
-            return "undefined for the full equation of motion"
         return "undefined " + ("between braces" if motion.system.braces else "for a block that never moves")
-    speed = in_si("velocity", abs(motion.margin), block)
+    known = abs(margin_speed(motion, block))
+    speed = f"{math.degrees(known):.4g}°/s"
+    if math.isnan(known):
+        speed = f"{abs(motion.margin):.4g} α θcr of its side"
     how = (
         f"had {speed} more than it needed to overturn"
         if motion.margin >= 0
@@ -346,8 +424,15 @@ def margin_text(motion: Motion, block: Block) -> str:
 
 def record_more(motion: Motion, request: Request) -> dict[str, Any]:
     """Return the ground motion, the validity report and the warnings as JSON objects."""
-    ground = request.records
-    facts = {
+    warnings = [*request.warnings, *undecided(motion)]
+    direction = {"worse_direction": request.counted} if request.counted else {}
+    facts_of_ground = facts(request.records) | direction
+    return {"ground_motion": facts_of_ground, **motion_validity(motion, request), "warnings": warnings}
+
+
+def facts(ground: GroundMotion) -> dict[str, Any]:
+    """Return a ground motion as a JSON object."""
+    return {
         "name": ground.name,
         "component": ground.component,
         "file": None if ground.file is None else attrs.asdict(ground.file),
@@ -356,16 +441,79 @@ def record_more(motion: Motion, request: Request) -> dict[str, Any]:
         "step_s": ground.step,
         "duration_s": ground.duration,
         "baseline": ground.baseline,
+        "changes": list(ground.changes),
         "factor": ground.factor,
         "pga_m_per_s2": ground.pga,
         "pgv_m_per_s": ground.pgv,
         "pgd_m": ground.pgd,
         "drift_m": float(ground.displacement[-1]),
         "arias_intensity_m_per_s": ground.arias_intensity,
+        "cav_m_per_s": ground.cav,
         "significant_duration_s": ground.significant_duration,
+        "bracketed_duration_s": ground.bracketed_duration(),
     }
-    warnings = [*request.warnings, *undecided(motion)]
-    return {"ground_motion": facts, **motion_validity(motion, request), "warnings": warnings}
 
 
 RECORD = Report(record_text, figure=record_figure, more=record_more, rows=tables)
+
+
+# Sliding.
+
+
+def slide_text(result: Slip, request: Request) -> Text:
+    """Return the slip and its intervals."""
+    lines = warning_lines(request.warnings)
+    return Text(str(result), [*of_ground(request.records), *slide_rows(result)], lines)
+
+
+def slide_rows(result: Slip) -> Iterator[Row]:
+    """Yield the rows of the result."""
+    yield "coefficient of friction", f"{result.friction:g}"
+    if not len(result.intervals):
+        return
+    yield "largest slip", f"{result.largest:.4g} m at t = {result.largest_time:.4g} s"
+    yield "residual slip", f"{result.residual:.4g} m"
+    yield "slip in all", f"{result.path:.4g} m"
+    (first, _), (_, last) = result.intervals[[0, -1]]
+    yield "slides", f"first from t = {first:.4g} s, rests from t = {last:.4g} s on"
+
+
+def slide_more(_: Slip, request: Request) -> dict[str, Any]:
+    """Return the ground motion and the warnings as JSON objects."""
+    return {"ground_motion": facts(request.records), "warnings": list(request.warnings)}
+
+
+def slide_figure(plot: Any, result: Slip, request: Request) -> Any:
+    """Return the slip under the name of its record."""
+    ax = plot.slip(result)
+    plot.title(ax, heading(request.records))
+    return ax
+
+
+SLIDE = Report(slide_text, figure=slide_figure, more=slide_more)
+
+
+# Fit of the restitution.
+
+
+def fit_text(fit: RestitutionFit, request: Request) -> Text:
+    """Return the fitted values with their intervals."""
+    return Text("coefficient of restitution from the times of impacts", fit_rows(fit), [])
+
+
+def fit_rows(fit: RestitutionFit) -> Iterator[Row]:
+    """Yield one row per value."""
+    yield "", "value", "95 % interval"
+    for name, unit, short in (
+        ("restitution", "", "coefficient of restitution"),
+        ("frequency_parameter", " 1/s", "frequency parameter"),
+        ("angle", " θcr", "largest |θ| before the first impact"),
+    ):
+        value, low, high = (getattr(fit, f"{name}{end}") for end in ("", "_low", "_high"))
+        yield short, f"{value:.5g}{unit}", "given" if low == high else f"{low:.5g} to {high:.5g}"
+    yield "impacts", str(fit.dataset.sizes["impact"]), ""
+    yield "deviation of the times from the fit", f"{1000.0 * fit.deviation:.3g} ms", ""
+    yield "equation of motion", fit.model, ""
+
+
+FIT_RESTITUTION = Report(fit_text)

@@ -1,4 +1,4 @@
-"""Reports of surveys of ground motions: rocking spectra, overturning sets, fragility and sensitivity."""
+"""Reports of surveys of ground motions: rocking spectra, incremental dynamic analyses, fragility, sensitivity, overturning sets."""
 
 from __future__ import annotations
 
@@ -18,11 +18,22 @@ from rocking.cli.reports import (
     undecided,
     warning_lines,
 )
-from rocking.model.record_results import Fragility, OverturningSet, Sensitivity, limit_name
+from rocking.model.hazard import OverturningRate
+from rocking.model.record_results import (
+    FRACTILES,
+    Fragility,
+    IncrementalDynamicAnalysis,
+    OverturningSet,
+    Sensitivity,
+    few_records,
+    limit_name,
+)
 from rocking.model.record_set import RecordSet
 from rocking.model.tables_and_json import counts
 from rocking.model.text import counted, percent, percent_with_ends
+from rocking.model.validation import TooShort
 from rocking.survey.export import tables
+from rocking.survey.overturning_rate import overturning_rate
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,8 +43,10 @@ if TYPE_CHECKING:
 
 def with_equation(result: Any, rows: Iterable[Row], title: str, sentences: Iterable[str]) -> Text:
     """Return the text of a survey of one block, with the equation of motion and the warnings."""
-    line = equation_line(result.block, result.dataset.attrs["model"])
-    return Text(title, rows, [line, *warning_lines(sentences)])
+    lines = [equation_line(result.block, result.dataset.attrs)]
+    if not result.block.law.is_plain:
+        lines.append(f"restitution: {result.block.law}")
+    return Text(title, rows, [*lines, *warning_lines(sentences)])
 
 
 # Rocking spectrum.
@@ -56,7 +69,14 @@ def spectrum_warnings(data: xr.Dataset) -> Iterator[str]:
     yield from undecided(counts(data, "certified")["undecided"])
     size, slenderness = values(data, "size").max(), values(data, "slenderness")
     height = float(2.0 * size * np.cos(slenderness.min()))
-    yield from shape_warnings(height, float(slenderness.max()), full=data.attrs["model"] == "full")
+    full, by = data.attrs["model"] == "full", data.attrs.get("normalised_by", "angle")
+    yield from shape_warnings(height, *widest_angles(data), full=full, normalised_by=by)
+
+
+def widest_angles(data: xr.Dataset) -> tuple[float, float]:
+    """Return the largest critical angles of the blocks, on each side, in rad."""
+    right = float(values(data, "slenderness").max())
+    return right, right * data.attrs.get("angle_ratio", 1.0)
 
 
 def values(data: xr.Dataset, name: str) -> np.ndarray:
@@ -78,14 +98,33 @@ def spectrum_rows(data: xr.Dataset, records: RecordSet) -> Iterator[Row]:
         pga = np.array([motion.pga for motion in records])
         yield "PGA", f"{range_text(pga)} m/s², times {range_text(values(data, 'level'))}"
     yield "size R", f"{range_text(values(data, 'size'))} m"
-    yield "critical angle", f"{range_text(np.degrees(values(data, 'slenderness')))}°"
-    widest, full = float(values(data, "slenderness").max()), data.attrs["model"] == "full"
-    yield "equation of motion", equation(widest, full=full)
+    yield "critical angle", both_sides(data, np.degrees(values(data, "slenderness")), "angle_ratio", "°")
+    full = data.attrs["model"] == "full"
+    by = data.attrs.get("normalised_by", "angle")
+    yield "equation of motion", equation(*widest_angles(data), full=full, normalised_by=by)
     named = "restitution" in (*data.dims, *data.attrs)
+    factor = f"{data.attrs['restitution_factor']:g} × " if "restitution_factor" in data.attrs else ""
     yield (
         "restitution",
-        range_text(values(data, "restitution")) if named else "Housner's for each slenderness",
+        both_sides(data, values(data, "restitution"), "left_restitution")
+        if named
+        else f"{factor}Housner's for each slenderness",
     )
+    if "restitution_table_rad_per_s" in data.attrs:
+        yield "", f"table of {len(data.attrs['restitution_table_rad_per_s']) // 2} speeds"
+    if "restitution_deviation" in data.attrs:
+        deviation, shape, seed = (
+            data.attrs[f"restitution_{each}"] for each in ("deviation", "shape", "seed")
+        )
+        yield "", f"{shape} scatter of {deviation:g} at each impact, seed {seed}"
+
+
+def both_sides(data: xr.Dataset, right: np.ndarray, of_left: str, unit: str = "") -> str:
+    """Return a quantity of blocks; of an unsymmetric one, that of each side, with the attribute of the left side."""
+    if of_left not in data.attrs:
+        return f"{range_text(right)}{unit}"
+    left = data.attrs[of_left] * (right if of_left == "angle_ratio" else 1.0)
+    return f"{range_text(right)}{unit} for θ > 0, {range_text(left)}{unit} for θ < 0"
 
 
 def range_text(numbers: Any) -> str:
@@ -105,11 +144,11 @@ def outcome_rows(outcomes: dict[str, int], total: int) -> Iterator[Row]:
 
 def largest_rows(data: xr.Dataset) -> Iterator[Row]:
     """Yield the rows of the largest angle and of the largest size."""
-    summary = largest_record(data)
+    summary, side = largest_record(data), " of θ > 0" if "angle_ratio" in data.attrs else ""
     if summary["largest_angle_rad"] is not None:
         yield (
             "largest |θ| of blocks that stand",
-            f"{np.degrees(summary['largest_angle_rad']):.4g}°, {summary['largest_angle']:.4g} θcr",
+            f"{np.degrees(summary['largest_angle_rad']):.4g}°, {summary['largest_angle']:.4g} θcr{side}",
         )
     if summary["largest_overturned_size_m"] is not None:
         yield "largest R that overturns", f"{summary['largest_overturned_size_m']:.6g} m"
@@ -163,25 +202,78 @@ SPECTRUM = Report(
 )
 
 
+# Incremental dynamic analysis.
+
+
+def ida_text(result: IncrementalDynamicAnalysis, request: Request) -> Text:
+    """Return the fractiles of the largest angle, and the fraction that overturns, at each level."""
+    return with_equation(result, ida_rows(result), str(result), ida_warnings(result, request))
+
+
+def ida_warnings(result: IncrementalDynamicAnalysis, request: Request) -> Iterator[str]:
+    """Yield the warnings of the reader, about few records, undecided runs and the block."""
+    data = result.dataset
+    yield from request.warnings
+    yield from few_records(data.sizes["record"])
+    yield from undecided(int((data.certified == 0).sum()))
+    yield from survey_warnings(result.block, data.attrs)
+
+
+def ida_rows(result: IncrementalDynamicAnalysis) -> Iterator[Row]:
+    """Yield the fractiles at each level; at most so many levels, evenly spread, that the table stays short."""
+    fractiles = result.fractiles()
+    count = fractiles.sizes["level"]
+    shown = range(count) if count <= MAX_ROWS else np.linspace(0, count - 1, MAX_ROWS).round().astype(int)
+    names = (f"|θ| of {100 * each:g} % of the records" for each in FRACTILES)
+    yield (level_heading(result, "(", ")"), *names, "overturned")
+    for place in shown:
+        angles = (
+            "overturns" if math.isinf(peak) else f"{result.block.degrees(peak):.4g}°"
+            for peak in fractiles.values[:, place].tolist()
+        )
+        yield (
+            f"{float(fractiles.level[place]):.4g}",
+            *angles,
+            percent(float(result.overturned[place])),
+        )
+    if count > MAX_ROWS:
+        yield (f"{MAX_ROWS} of {count} levels (all of them with --json)", "", "", "", "")
+
+
+IDA = Report(ida_text, warnings=ida_warnings)
+
+
 # Fragility.
 
 
 FRAGILITY_COLUMNS = ("fraction", "fraction_low", "fraction_high", "fit", "fit_low", "fit_high")
 
 
-FEW = 10
-"""Number of records below which the report warns."""
-
-
 def fragility_text(result: Fragility, request: Request) -> Text:
-    """Return the fits and the probabilities."""
-    return with_equation(result, fragility_rows(result), str(result), fragility_warnings(result, request))
+    """Return the fits and the probabilities, and the annual rates at a site."""
+    rates = [str(each) for each in rates_of(result, request)[0]]
+    text = with_equation(result, fragility_rows(result), str(result), fragility_warnings(result, request))
+    return text._replace(lines=[*rates, *text.lines])
 
 
-def few_records(count: int) -> Iterator[str]:
-    """Yield a warning if the records are too few for intervals."""
-    if count < FEW:
-        yield f"{counted(count, 'record')} can hardly say how much records differ: use {FEW} or more"
+def rates_of(result: Fragility, request: Request) -> tuple[list[OverturningRate], list[str]]:
+    """Return the annual rates of all limits that have a fit, and why the others have none."""
+    rates, reasons = [], []
+    if request.hazard is not None:
+        bootstrap = {name: result.dataset.attrs[name] for name in ("replicates", "seed")}
+        for fit in result.fits:
+            try:
+                rates.append(overturning_rate(result, request.hazard, limit=fit.limit, **bootstrap))
+            except TooShort as error:
+                reasons.append(str(error))
+    return rates, reasons
+
+
+def fragility_rates(result: Fragility, request: Request) -> dict[str, Any]:
+    """Return the annual rates at a site for the JSON."""
+    return (
+        {} if request.hazard is None else {"rates": [each.to_dict() for each in rates_of(result, request)[0]]}
+    )
 
 
 def fragility_warnings(result: Fragility, request: Request) -> Iterator[str]:
@@ -189,13 +281,14 @@ def fragility_warnings(result: Fragility, request: Request) -> Iterator[str]:
     data = result.dataset
     yield from request.warnings
     yield from few_records(data.sizes["record"])
+    yield from (f"no annual rate: {reason}" for reason in rates_of(result, request)[1])
     undecided = int((data.certified == 0).sum())
     if undecided:
         yield f"{undecided:,} of {data.peak.size:,} runs are undecided in double precision; the intervals cover both outcomes"
-    yield from survey_warnings(result.block, data.attrs["model"])
+    yield from survey_warnings(result.block, data.attrs)
 
 
-def level_heading(result: Fragility, *brackets: str) -> str:
+def level_heading(result: Fragility | IncrementalDynamicAnalysis, *brackets: str) -> str:
     """Return symbol and unit of the levels."""
     attributes = result.dataset.level.attrs
     unit = "" if attributes["units"] in ("", "1") else f" {brackets[0]}{attributes['units']}{brackets[1]}"
@@ -243,6 +336,7 @@ def fit_text(value: float, low: float, high: float) -> str:
 FRAGILITY = Report(
     fragility_text,
     warnings=fragility_warnings,
+    more=fragility_rates,
 )
 
 
@@ -268,7 +362,7 @@ def sensitivity_warnings(result: Sensitivity, request: Request) -> Iterator[str]
     count = int(data.undecided.max())
     if count:
         yield f"{counted(count, 'run')} undecided in double precision; the intervals cover both outcomes"
-    yield from survey_warnings(result.block, data.attrs["model"])
+    yield from survey_warnings(result.block, data.attrs)
 
 
 def sensitivity_rows(result: Sensitivity) -> Iterator[Row]:
@@ -303,7 +397,7 @@ def set_warnings(result: OverturningSet, request: Request) -> Iterator[str]:
     count = result.undecided.size
     if count:
         yield f"{count:,} of {result.switches.size:,} switches are undecided in double precision"
-    yield from survey_warnings(result.block, result.dataset.attrs["model"])
+    yield from survey_warnings(result.block, result.dataset.attrs)
 
 
 def set_rows(result: OverturningSet) -> Iterator[Row]:

@@ -15,13 +15,14 @@ from rocking.cli.reports import (
     angle_warning,
     block_warnings,
     in_si,
+    law_text,
     system_rows,
     undecided,
     warning_lines,
 )
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
-from rocking.model.quantity import IN_SI
+from rocking.model.quantity import IN_SI, LEFT_QUANTITIES
 from rocking.model.survey_results import BasinMap, OverturningCurve, SafeBasin
 from rocking.model.system import System
 from rocking.model.tables_and_json import counts
@@ -73,7 +74,8 @@ def map_rows(data: xr.Dataset, block: Block | None) -> Iterator[Row]:
     for name in (*SURVEYED, "max_cycles"):
         if name in data.attrs:
             value = data.attrs[name]
-            yield name.replace("_", " "), f"{value:.6g}", in_si(name, value, block)
+            beside = law_text(block) if name == "restitution" else in_si(name, value, block)
+            yield name.replace("_", " "), f"{value:.6g}", beside
 
 
 def response_rows(data: xr.Dataset) -> Iterator[Row]:
@@ -151,7 +153,7 @@ def tangled_from(system: System) -> float | None:
     from rocking.theory import heteroclinic_amplitude
 
     forcing = system.periodic
-    if system.braces is not None or not 0.0 < system.restitution < 1.0:
+    if not system.has_chains or system.braces is not None or not 0.0 < system.restitution < 1.0:
         return None
     tangency = float(heteroclinic_amplitude(forcing.period, system.restitution))
     return tangency if tangency < forcing.amplitude < math.hypot(1.0, forcing.frequency) else None
@@ -316,8 +318,10 @@ def spectrum_rows(data: xr.Dataset, block: Block | None) -> Iterator[Row]:
     for name in map(str, data.outcome.dims):
         first, last = data[name].values[[0, -1]]
         yield name, f"{first:.6g} to {last:.6g} ({data.sizes[name]:,})", in_si(name, (first, last), block)
-    if "restitution" in data.attrs:
-        yield "restitution", f"{data.attrs['restitution']:.6g}", ""
+    for name in ("restitution", *LEFT_QUANTITIES):
+        if name in data.attrs:
+            law = law_text(block) if name == "restitution" else ""
+            yield name.replace("_", " "), f"{data.attrs[name]:.6g}", law
     outcomes = counts(data, "outcome")
     total = sum(outcomes.values())
     for outcome, count in outcomes.items():

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from attrs import Factory, frozen
+from attrs import Factory, evolve, frozen
 
 from rocking.cli.options import (
     AMPLITUDES,
     AXIS_FORM,
+    MASS_CENTRE,
     NORMALISED,
     RANGE_FORM,
     SI,
@@ -20,13 +22,17 @@ from rocking.cli.options import (
     Axis,
     InvalidInput,
     Range,
+    lines_of,
+    number_in,
     option,
     refusals,
 )
 from rocking.model.block import Block
+from rocking.model.block_formulas import with_unit
 from rocking.model.forcing import Harmonic, Pulse
-from rocking.model.quantity import SYSTEM_QUANTITIES
-from rocking.model.system import MODELS, NO_BRACES, Braces, State, System
+from rocking.model.quantity import FRICTION, SYSTEM_QUANTITIES
+from rocking.model.restitution import Restitution
+from rocking.model.system import NO_BRACES, Braces, State, System, normalisation_for
 from rocking.model.system import quantities as quantities_of
 from rocking.model.system import system_of as system_with
 from rocking.model.validation import NoOrbit, Refusal, whole, within
@@ -41,8 +47,25 @@ VARIES = dict.fromkeys(AMPLITUDES, "amplitude") | {"frequency_hz": "frequency", 
 NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
 SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
 OUTPUTS = ("plot", "animate", "csv", "netcdf", "tiles")
-OTHER = {*SYSTEM, *START, *OUTPUTS, "model", "study", "json", "pulse", "curves", "symbols", "sources"}
+LAWS = ("restitution_factor", "restitution_table", "restitution_scatter")
+OTHER = {
+    *LAWS,
+    *SYSTEM,
+    *START,
+    *OUTPUTS,
+    "model",
+    "normalised_by",
+    "friction",
+    "study",
+    "json",
+    "pulse",
+    "curves",
+    "symbols",
+    "sources",
+    "hazard",
+}
 """Options that are no arguments of a function under their own names."""
+NO_UNIT = "--normalised-by needs a block in SI: omit it with normalised input"
 DEFAULT_MODES = (1, 3)
 STARTS = 200
 """Default number of initial states along an axis of a grid."""
@@ -63,6 +86,10 @@ class Request:
     varied: str = ""
     """Option with an axis or a range, as typed."""
     records: Any = None
+    hazard: Any = None
+    """Hazard of the site of a fragility, a `HazardCurve`."""
+    counted: str = ""
+    """Direction of a record that counts, "+" or "-", where both were followed."""
 
 
 def own_arguments(options: Options) -> dict[str, Any]:
@@ -99,8 +126,14 @@ def system_of(options: Options) -> tuple[System, Block | None]:
         raise InvalidInput(f"no system is given: give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
     if normalised:
         require(options, (("amplitude",), ("period", "frequency"), ("restitution",)), NORMALISED_NEEDS)
+        for name in select(options, *MASS_CENTRE):
+            raise InvalidInput(f"{option(name)} needs a block in SI: give --height and --width")
         if "model" in options:
             raise InvalidInput("--model needs a block in SI: give --critical-angle with normalised input")
+        if "normalised_by" in options:
+            raise InvalidInput(NO_UNIT)
+        if laws := select(options, *LAWS):
+            raise InvalidInput(f"{option(next(iter(laws)))} needs a block in SI: give --height and --width")
     else:
         require(options, (("height",), ("width",), SI[2:5], SI[5:]), SI_NEEDS)
         if "critical_angle" in options:
@@ -114,10 +147,23 @@ def system_of(options: Options) -> tuple[System, Block | None]:
                 forcing, options["restitution"], braces, critical_angle=options.get("critical_angle")
             )
         else:
-            block = Block(options["height"], options["width"], options.get("restitution"))
+            block = Block(
+                options["height"],
+                options["width"],
+                restitution_of(options),
+                **select(options, *MASS_CENTRE),
+            )
             base = select(options, *SI[2:], "phase")
-            system = block.system(**base, braces=braces, model=options.get("model", MODELS[0]))
-        return pulsed(system, options) if "pulse" in options else system, block
+            by = {} if "pulse" in options else select(options, "normalised_by")
+            system = block.system(**base, braces=braces, model=model_of(options), **by)
+        if "pulse" in options:
+            system = pulsed(system, options)
+        return system, system.block
+
+
+def model_of(options: Options) -> str:
+    """Return the equation of motion of a block in SI: by default full under a pulse, slender on a harmonic base."""
+    return str(options.get("model", "full" if "pulse" in options else "slender"))
 
 
 def select(options: Options, *names: str) -> dict[str, Any]:
@@ -125,18 +171,73 @@ def select(options: Options, *names: str) -> dict[str, Any]:
     return {name: options[name] for name in names if name in options}
 
 
+def restitution_of(options: Options) -> float | Restitution | None:
+    """Return the restitution of a block of the options; InvalidInput if invalid."""
+    given = [name for name in ("restitution", *LAWS[:2]) if name in options]
+    if len(given) > 1:
+        raise InvalidInput(f"give {option(given[0])} or {option(given[1])}, not both")
+    if not given and "restitution_scatter" not in options:
+        return None
+    names = {"rows": "restitution_table", "factor": "restitution_factor", "value": "restitution"}
+    typed = {name: option(each) for name, each in names.items()}
+    typed |= {name: f"the {name} of --restitution-scatter" for name in ("deviation", "shape", "seed")}
+    with refusals(typed):
+        if "restitution_table" in options:
+            law = Restitution.table(options["restitution_table"])
+        elif "restitution" in options:
+            law = Restitution.constant(options["restitution"])
+        else:
+            law = Restitution.housner(options.get("restitution_factor", 1.0))
+        return law.scattered(*options["restitution_scatter"]) if "restitution_scatter" in options else law
+
+
+def fit_restitution(options: Options) -> Request:
+    """Return the request of a fit of the coefficient of restitution."""
+    with refusals():
+        lines = lines_of("FILE", options["times"])
+    texts = [
+        part for line in lines if not line.startswith("#") for part in re.split(r"[,;\s]+", line) if part
+    ]
+    times = [number_in(part) for part in texts]
+    if None in times:
+        raise InvalidInput(f"FILE must hold times in s, and lines with #; got {texts[times.index(None)]!r}")
+    block = None
+    if {"height", "width"} & options.keys():
+        require(options, (("height",), ("width",)), "--height and --width")
+        with refusals():
+            block = Block(options["height"], options["width"], 0.5)
+    arguments = select(options, "frequency_parameter", "angle", "release", "model")
+    return Request(
+        {"times": times, "block": block} | arguments,
+        options,
+        block,
+        {"times": "FILE", "block": "--height and --width"},
+    )
+
+
 def pulsed(system: System, options: Options) -> System:
     """Return a system with one pulse of the amplitude and the period of its harmonic base motion."""
-    from attrs import evolve
-
     for name in ("phase", "displacement"):
         if options.get(name):
             raise InvalidInput(f"{option(name)} belongs to harmonic motion: omit it with --pulse")
     part = 0.5 if options["pulse"] == "half-sine" else 1.0
-    wave = system.periodic
-    return evolve(
-        system, forcing=Pulse(options["pulse"], amplitude=wave.amplitude, duration=part * wave.period)
-    )
+    wave, block = system.periodic, by_normalisation(system.block, options)
+    amplitude = wave.amplitude * unit_ratio(block)
+    forcing = Pulse(options["pulse"], amplitude=amplitude, duration=part * wave.period)
+    return evolve(system, forcing=forcing, block=block)
+
+
+def by_normalisation(block: Block | None, options: Options) -> Block | None:
+    """Return the block under a pulse, with the unit of acceleration of the options; None for normalised input."""
+    if block is None:
+        return None
+    by = normalisation_for(options.get("normalised_by"), model_of(options))
+    return with_unit(block, by)
+
+
+def unit_ratio(block: Block | None) -> float:
+    """Return g θcr in units of the acceleration of a block; 1 for normalised input."""
+    return 1.0 if block is None else block.critical_angle / block.acceleration_unit_g
 
 
 def braces_of(options: Options) -> Braces | None:
@@ -175,14 +276,24 @@ def simulation(options: Options) -> Request:
     cycles = options.get("cycles", None if "pulse" in options else 200)
     if "pulse" in options and cycles is not None:
         raise InvalidInput("--cycles belongs to harmonic motion: omit it with --pulse")
-    files = tuple(name for name in OUTPUTS if name in options)
+    files = tuple(name for name in (*OUTPUTS, "friction") if name in options)
     if files and cycles is not None and cycles > MAX_CYCLES_KEPT:
         names = ", ".join(map(option, files))
         raise InvalidInput(f"--cycles must be at most {MAX_CYCLES_KEPT} with {names}; got {cycles}")
     system, block = system_of(options)
+    if "friction" in options and block is None:
+        raise InvalidInput("--friction needs a block in SI: give --height and --width")
+    check_friction(options)
     return Request(
         {"system": system, "start": start_of(options), "cycles": cycles, "files": files}, options, block
     )
+
+
+def check_friction(options: Options) -> None:
+    """Raise InvalidInput for a coefficient of friction outside its range."""
+    with refusals():
+        if "friction" in options:
+            FRICTION.checked(options["friction"])
 
 
 # One varied quantity of a system.
@@ -210,10 +321,17 @@ def varied_of(options: Options, kind: type, form: str) -> Varied:
         raise InvalidInput(
             f"--displacement with {article} of {option(name)} varies amplitude and frequency: use --acceleration instead"
         )
+    check_both_sides(options)
     # Valid ranges are intervals, so that two valid ends imply valid values between them.
     first, block = system_of({**options, name: options[name].start})
     last, _ = system_of({**options, name: options[name].stop})
     return Varied(name, VARIES.get(name, name), first, last, block)
+
+
+def check_both_sides(options: Options) -> None:
+    """Raise InvalidInput for a coefficient of restitution that varies with an offset, where each side has its own one."""
+    if options.get("offset") and isinstance(options.get("restitution"), Axis | Range | np.ndarray):
+        raise InvalidInput("--restitution with --offset must be a number, because each side has its own one")
 
 
 def ends_of(varied: Varied) -> tuple[float, float]:
@@ -372,7 +490,8 @@ def frequency_response(options: Options) -> Request:
 
 def normalised(options: Options) -> dict[str, Any]:
     """Return normalised numbers and arrays of quantities given as numbers, axes and lists."""
-    options = {name: value for name, value in options.items() if name in (*SYSTEM, *START, "model")}
+    options = select(options, *SYSTEM, *START, *LAWS[:2], "model")
+    check_both_sides(options)
     varied = {name: each for name, each in options.items() if isinstance(each, Axis)}
     lists = {name: each for name, each in options.items() if isinstance(each, np.ndarray)}
     if in_si := [name for name in lists if name in SI]:
@@ -420,13 +539,13 @@ def block_of(options: Options) -> Block | None:
     if "height" not in options:
         return None
     restitution = options.get("restitution")
-    if isinstance(restitution, Axis):
-        restitution = restitution.start
-    return Block(
-        options["height"],
-        options["width"],
-        restitution[0] if isinstance(restitution, np.ndarray) else restitution,
-    )
+    if isinstance(restitution, Axis | np.ndarray):
+        first = restitution.start if isinstance(restitution, Axis) else restitution[0].item()
+        options = {**options, "restitution": first}
+    with refusals():
+        return Block(
+            options["height"], options["width"], restitution_of(options), **select(options, *MASS_CENTRE)
+        )
 
 
 def check_entry(key: str, name: str, value: Any) -> None:
@@ -465,11 +584,15 @@ def survey_request(
     return Request(own_arguments(options) | arguments, options, block, names)
 
 
-def of_system(values: Mapping[str, Any]) -> dict[str, Any]:
+def of_system(values: Mapping[str, Any], options: Options) -> dict[str, Any]:
     """Return the arguments of a survey of a system: the system, and the axes; the system has the first value of each."""
     axes = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
     first = dict(values) | {name: value[0].item() for name, value in axes.items()}
-    return {"system": system_with({"phase": 0.0, **NO_BRACES} | first)} | axes
+    system, block = system_with({"phase": 0.0, **NO_BRACES} | first), block_of(options)
+    if block is not None and block.law.rows:
+        rows = block.law.normalised_rows(float(block.radians_per_second(1.0)))
+        system = evolve(system, restitution_table=rows)
+    return {"system": system} | axes
 
 
 def parametric_map(options: Options) -> Request:
@@ -477,7 +600,7 @@ def parametric_map(options: Options) -> Request:
     values = normalised(options)
     fixed = {name: value for name, value in values.items() if not isinstance(value, np.ndarray)}
     start = State(**select(fixed, *START))
-    request = survey_request(options, of_system(values) | {"start": start})
+    request = survey_request(options, of_system(values, options) | {"start": start})
     drawn = [name for name in ("curves", "symbols") if name in options]
     if drawn and "plot" not in options:
         raise InvalidInput(f"{option(drawn[0])} needs a plot: give --plot FILE as well")
@@ -513,7 +636,7 @@ def safe_basin(options: Options) -> Request:
     numbers = normalised({name: value for name, value in options.items() if name not in START})
     reach = min(numbers.get("brace_angle", 1.0), 1.0)
     starts = {"angle": (-reach, reach)} | select(options, *START)
-    return survey_request(options, of_system(numbers) | select(numbers, "amplitude") | starts)
+    return survey_request(options, of_system(numbers, options) | select(numbers, "amplitude") | starts)
 
 
 def overturning(options: Options) -> Request:
@@ -537,13 +660,14 @@ def overturning(options: Options) -> Request:
         )
     scanned = any(name in options for name in AMPLITUDES)
     ignored = {} if scanned else {"acceleration" if in_si else "amplitude": 0.0}
-    return survey_request(options, of_system(normalised({**options, **ignored})))
+    return survey_request(options, of_system(normalised({**options, **ignored}), options))
 
 
 def overturning_spectrum(options: Options) -> Request:
     """Return the request of an overturning spectrum of pulses."""
     require(options, (("pulse",),), "the form of the pulse, such as --pulse one-sine")
     if normalised_and_si(options)[1]:
+        options = {**options, "model": model_of(options)}
         needs = "--height, --width, --acceleration (or --acceleration-g) and --frequency-hz"
         require(options, (("height",), ("width",), SI[2:4], SI[5:6]), needs)
         if "acceleration" in options and "acceleration_g" in options:
@@ -554,6 +678,8 @@ def overturning_spectrum(options: Options) -> Request:
             (("amplitude",), ("frequency",), ("restitution",)),
             "--amplitude, --frequency and --restitution",
         )
+        if "normalised_by" in options:
+            raise InvalidInput(NO_UNIT)
     for name in ("restitution", "critical_angle"):
         if "plot" in options and not isinstance(options.get(name, 0.0), int | float):
             raise InvalidInput(f"--plot needs one value of {option(name)}; got an axis (give a number)")
@@ -561,6 +687,11 @@ def overturning_spectrum(options: Options) -> Request:
     axes = {name: value for name, value in numbers.items() if isinstance(value, np.ndarray)}
     own = {name: value.item(0) if name in axes else value for name, value in numbers.items()}
     with refusals({"kind": "--pulse"}):
-        pulse = Pulse(options["pulse"], amplitude=1.0, duration=1.0)
-    system = System(pulse, own["restitution"], critical_angle=own.get("critical_angle"))
-    return survey_request(options, {"system": system} | axes)
+        pulse, block = Pulse(options["pulse"], amplitude=1.0, duration=1.0), block_of(options)
+        if block is None:
+            system = System(pulse, own["restitution"], critical_angle=own.get("critical_angle"))
+        else:
+            system = block.system(pulse, **select(options, "model", "normalised_by"))
+    if "amplitude" in axes:
+        axes["amplitude"] = axes["amplitude"] * unit_ratio(system.block)
+    return evolve(survey_request(options, {"system": system} | axes), block=system.block)

@@ -340,6 +340,7 @@ function frame() {
   ink.strokeStyle = inks.edge;
   ink.fillRect(-half, -tall, 2 * half, tall);
   ink.strokeRect(-half, -tall, 2 * half, tall);
+  if (film.centre) { ink.fillStyle = inks.edge; ink.beginPath(); ink.arc(film.centre[0] * scale, -film.centre[1] * scale, 4, 0, 2 * Math.PI); ink.fill(); }
   ink.restore();
 }
 

@@ -19,6 +19,7 @@ function show(view) {
     if (field && !field.dataset.typing) field.value = field.tagName === "INPUT" && document.activeElement !== field ? brief(text) : text;
   }
   place(view.fields.source);
+  for (const label of all("#fields [data-model]")) label.hidden = label.dataset.model !== view.fields.model;
   remember(view, before);
   if (!sliding) find("slider").value = slot(view.fields.scale);
   find("pga").textContent = `PGA ${rounded(view.ground.pga * view.fields.scale, 3)} g`;
@@ -155,8 +156,8 @@ function legend(message) {
 // ---- the animation, seen from the base
 
 function scene() {
-  const { time, angle: degrees } = columns("history"), { height, width, critical } = shown.block;
-  shoot(Array.from(degrees, value => value * Math.PI / 180 / critical), critical, height, { time, width, moves: 1, displacement: () => 0, speed: 1 });
+  const { time, angle: degrees } = columns("history"), { height, width, critical, centre } = shown.block;
+  shoot(Array.from(degrees, value => value * Math.PI / 180 / critical), critical, height, { time, width, centre, moves: 1, displacement: () => 0, speed: 1 });
   clock = Math.min(clock, time[time.length - 1] ?? 0);
   find("scale-note").textContent = film.angles > 1.05 ? `angle × ${film.angles.toPrecision(2)}` : "true to scale";
   frame();

@@ -10,10 +10,11 @@ import numpy as np
 from rocking.explorer.ground_maps import ANGLES, FALLEN, STILL
 from rocking.explorer.ground_view import Ground, GroundView, thinned
 from rocking.model.block import Block
-from rocking.model.block_formulas import GRAVITY
+from rocking.model.block_formulas import GRAVITY, with_unit
 from rocking.model.verdict import Outcome
-from rocking.motion.motion import Motion, end_shown
+from rocking.motion.motion import Motion, end_shown, margin_speed
 from rocking.motion.simulate import simulate
+from rocking.motion.validity import compared, degrees_and_share
 
 FEWEST, STEPS = 4_000, 20_000
 """Smallest and largest number of times at which the angle is computed before it is thinned."""
@@ -30,12 +31,13 @@ Contents = dict[str, dict[str, Any]]
 def block_motion(view: GroundView, ground: Ground) -> tuple[Contents, dict[str, Any]]:
     """Simulate the selected block under the scaled base motion; return the figures, and the verdict in words."""
     block, base = view.block, ground.scaled(view.scale)
-    motion = simulate(block.system(base, model=view.model))
+    model, normalised_by = view.equation
+    motion = simulate(block.system(base, model=model, normalised_by=normalised_by))
     times, degrees = _history(motion, block, ground.sampled.times.size)
     fullest = max(float(np.abs(degrees).max()), 0.2 * block.degrees(1.0))
     words = _words(motion, block)
     return _figures(view, ground, times, degrees, fullest), words | {
-        "sentence": f"{SENTENCES[words['kind']]}{factor_in_words(view)}"
+        "sentence": f"{SENTENCES[words['kind']]}{factor_in_words(view)}{SYMMETRIC if block.left else ''}"
     }
 
 
@@ -54,8 +56,8 @@ def _figures(
     end = float(max([*times[-1:], line["time"][-1]]))
     angle = fullest * (1 + 2 * OVER)
     largest = max(float(np.abs(line["acceleration"]).max()), 1e-6) * (1 + 5 * OVER)
-    history = {"ranges": [0.0, end, -angle, angle], "line": {"time": times, "angle": degrees}}
-    history |= {"above": critical, "below": -critical}
+    history: dict[str, Any] = {"ranges": [0.0, end, -angle, angle], "line": {"time": times, "angle": degrees}}
+    history |= {"above": critical, "below": -math.degrees(view.block.critical_angles[1])}
     return {"history": history, "base": {"ranges": [0.0, end, -largest, largest], "line": line}}
 
 
@@ -73,20 +75,20 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
         kind, colour = "overturns", FALLEN
     elif moves:
         kind, colour = "rocks and stands", ANGLES[min(int(motion.peak * len(ANGLES)), len(ANGLES) - 1)]
-    lift = block.acceleration(motion.system.lift_off) / GRAVITY
+    unit = with_unit(block, motion.system.normalised_by)
+    right, left = (unit.acceleration(level) / GRAVITY for level in motion.system.lift_offs)
     facts: Facts = [
         ("block", f"{block.height:.4g} m × {block.width:.4g} m"),
-        ("R", f"{block.radius:.4g} m"),
-        ("θcr", f"{block.degrees(1.0):.4g}°"),
-        ("e", f"{block.restitution:.4g} (Housner)"),
-        ("lifts off at", f"{lift:.4g} g"),
+        *_sides(block),
+        ("lifts off at", f"{right:.4g} g" if block.left is None else f"−{right:.4g} g, {left:.4g} g"),
     ]
     if moves and not overturned:
-        facts.append(("largest |θ|", f"{block.degrees(motion.peak):.4g}°, {motion.peak:.4g} θcr"))
+        facts.append(("largest |θ|", degrees_and_share(block, motion.peak)))
     if moves:
         facts.append(("impacts", f"{motion.impacts:,}"))
     if motion.overturning is not None:
         facts.append(("overturning certain from", f"{block.seconds(motion.overturning.time):.4g} s"))
+    facts += [row for row in (compared(motion),) if row[0]]
     return {
         "kind": kind,
         "sentence": SENTENCES[kind],
@@ -96,12 +98,30 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
     }
 
 
+def _sides(block: Block) -> Facts:
+    """Return R, θcr and e, of both sides of an unsymmetric block."""
+    if block.left is None:
+        return [
+            ("R", f"{block.radius:.4g} m"),
+            ("θcr", f"{block.degrees(1.0):.4g}°"),
+            ("e", f"{block.restitution:.4g} (Housner)"),
+        ]
+    angles, radii, kept = block.critical_angles, block.radii, (block.restitution, block.left_restitution)
+    return [
+        ("offset", f"{block.offset:.4g} m"),
+        ("R for θ > 0 and θ < 0", f"{radii[0]:.4g} m, {radii[1]:.4g} m"),
+        ("θcr", f"{math.degrees(angles[0]):.4g}°, {math.degrees(angles[1]):.4g}°"),
+        ("e", f"{kept[0]:.4g}, {kept[1]:.4g} (Housner)"),
+    ]
+
+
 SENTENCES = {
     "stands still": "The base motion does not lift the block.",
     "rocks and stands": "The block rocks, and does not fall over.",
     "overturns": "The block falls over.",
 }
 """What an outcome means for the block."""
+SYMMETRIC = " The blocks of the map have no offset."
 
 
 def factor_in_words(view: GroundView) -> str:
@@ -113,15 +133,7 @@ def factor_in_words(view: GroundView) -> str:
 
 
 def _evidence(motion: Motion, block: Block) -> dict[str, Any]:
-    """Return margin, certificate and validity in words; the full equation of motion has no margin and no certificate."""
-    if motion.system.critical_angle is not None:
-        return {
-            "margin": "",
-            "certified": "Full equation of motion: the effect of rounding on the outcome is not assessed.",
-            "decided": True,
-            "level": "",
-            "validity": _validity(motion, block),
-        }
+    """Return margin, certificate and validity in words."""
     certified = "Certified: no rounding error can have changed the outcome."
     if not motion.certified:
         certified = (
@@ -141,7 +153,8 @@ def margin_in_words(motion: Motion, block: Block) -> str:
     if math.isnan(motion.margin):
         return "The block never lifts off."
     size, time = abs(motion.margin), block.seconds(motion.margin_time)
-    speed = f"{size:.3g} α θcr = {math.degrees(block.radians_per_second(size)):.3g} °/s"
+    side = " of its side" if block.left is not None else ""
+    speed = f"{size:.3g} α θcr{side} = {math.degrees(abs(margin_speed(motion, block))):.3g} °/s"
     if motion.margin >= 0.0:
         return f"Closest decision at t = {time:.4g} s: the block was faster than it had to be to overturn, by {speed}."
     if motion.outcome == Outcome.OVERTURNED:

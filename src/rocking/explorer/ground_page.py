@@ -37,7 +37,7 @@ from rocking.survey.ending_measures import BlockEndings
 
 LOST = "the link shows a file, which is not part of the link: choose the file again"
 UNFINISHED = "the map is not complete: save it when it is"
-SHAKEN = ("shaking", "scale", "model")
+SHAKEN = ("shaking", "scale", "equation")
 
 
 class GroundSession(Session):
@@ -151,7 +151,12 @@ class GroundSession(Session):
             "scales": SCALES,
             "ground": self.ground.words(view.scale),
             "channels": [each.name for each in self.channels],
-            "block": {"height": view.height, "width": view.width, "critical": view.block.critical_angle},
+            "block": {
+                "height": view.height,
+                "width": view.width,
+                "critical": view.block.critical_angle,
+                "centre": [view.offset, view.block.centre_height] if view.offset else None,
+            },
         }
 
     # the map
@@ -159,7 +164,7 @@ class GroundSession(Session):
     async def refine_map(self, view: GroundView, stop: np.ndarray) -> None:
         """Compute and draw the map, from coarse to fine."""
         self.finest = None
-        endings = await self.workers.soon(BlockEndings, self.ground.base, view.scale, view.model)
+        endings = await self.workers.soon(BlockEndings, self.ground.base, view.scale, *view.equation)
         measure = Endings(view.sizes, view.angles, endings)
 
         def draw(picture: Picture) -> None:
@@ -179,7 +184,10 @@ class GroundSession(Session):
             await self.change(lambda: self.link.refuse(page=UNFINISHED))
             return
         name = self.ground.words(view.scale)["name"]
-        described = {"base_motion": name, "level": view.scale, "model": view.model, "view": view.address}
+        model, normalised_by = view.equation
+        described = {"base_motion": name, "level": view.scale, "model": model}
+        described |= {"normalised_by": normalised_by} if normalised_by else {}
+        described |= {"view": view.address}
         await self.change(
             self.link.save, await self.workers.soon(ground_maps.netcdf, *self.finest, described)
         )
@@ -200,7 +208,7 @@ class GroundSession(Session):
 
     JOBS = (
         Job("map", refine_map, (*SHAKEN, "sizes", "angles"), ("map",)),
-        Job("motion", draw_motion, (*SHAKEN, "height", "width"), ("verdict",)),
+        Job("motion", draw_motion, (*SHAKEN, "height", "width", "offset"), ("verdict",)),
     )
 
 

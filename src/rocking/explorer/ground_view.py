@@ -14,10 +14,11 @@ from rocking.explorer.fields import Span, View, axis, count, entry, number, opti
 from rocking.explorer.ground_maps import POINTS
 from rocking.model import quantity as quantities
 from rocking.model.block import Block
-from rocking.model.block_formulas import GRAVITY
+from rocking.model.block_formulas import GRAVITY, NORMALISATIONS
+from rocking.model.changed_motion import STEPS
 from rocking.model.forcing import KINDS, Pulse
-from rocking.model.ground_motion import STEPS, GroundMotion, vertical_sentence
-from rocking.model.system import MODELS
+from rocking.model.ground_motion import GroundMotion, vertical_sentence
+from rocking.model.system import MODELS, critical_angle_for
 from rocking.model.validation import Refusal
 from rocking.records.read import example_ground_motion, read_apart
 from rocking.records.synthetic import synthetic_ground_motions
@@ -74,10 +75,12 @@ class GroundView(View):
         Channel of the file, counted from 1.
     scale : float
         Factor of the base motion.
-    height, width : float
-        Block, in m.
+    height, width, offset : float
+        Block, and the distance of its mass centre from the middle of the base towards the edge of θ > 0, in m.
     model : str
         Equation of motion: "slender" or "full".
+    normalised_by : str
+        Unit of the base acceleration of slender blocks: "tangent" or "angle".
     sizes, angles : Span
         Ranges of the map: half the diagonal R in m, and the critical angle in degrees.
     reading : int
@@ -96,15 +99,17 @@ class GroundView(View):
     scale: float = entry(5.0, number(*SCALES))
     height: float = entry(2.0, number(*quantities.SIZES))
     width: float = entry(0.5, number(*quantities.SIZES))
-    model: str = entry("slender", word(*MODELS))
+    offset: float = entry(0.0, number(-quantities.SIZES[1], quantities.SIZES[1]))
+    model: str = entry("full", word(*MODELS))
+    normalised_by: str = entry("tangent", word(*NORMALISATIONS))
     sizes: Span = axis(Span(0.2, 10.0), *SIZES, distinct, ENDS)
     angles: Span = axis(Span(3.0, 30.0), *SLENDERNESS, distinct, ENDS)
     reading: int = 0
 
     @property
     def block(self) -> Block:
-        """Selected block: a uniform rectangle with Housner's restitution."""
-        return Block(self.height, self.width)
+        """Selected block: a rectangle with Housner's restitution, uniform but for the offset of its mass centre."""
+        return Block(self.height, self.width, offset=self.offset)
 
     @property
     def shaking(self) -> tuple[Any, ...]:
@@ -126,22 +131,34 @@ class GroundView(View):
             return self
         return evolve(self, scale=DEFAULT.scale if self.source == DEFAULT.source else 1.0)
 
+    @property
+    def equation(self) -> tuple[str, str | None]:
+        """Equation of motion, and the unit of the base acceleration of slender blocks; None for the full equation."""
+        return self.model, self.normalised_by if self.model == "slender" else None
+
     def checked(self) -> GroundView:
-        """Return the view; raise Refused if its block has no restitution of Housner."""
+        """Return the view; raise Refused if its block has no restitution of Housner, or does not suit the equation of motion.
+
+        Also if its mass centre is not above the base.
+        """
         try:
-            Block(self.height, self.width)
+            for angle in self.block.critical_angles:
+                critical_angle_for(self.model, angle, self.width)
         except Refusal as error:
             raise self.refused(error) from None
         return self
 
     def at_point(self, size: float, degrees: float) -> dict[str, str]:
-        """Return height and width, as text, of the block at a point of the map, with digits finer than the points."""
+        """Return height, width and offset, as text, of the block at a point of the map, with digits finer than the points.
+
+        The blocks of the map are symmetric.
+        """
         size = min(max(size, self.sizes.low), self.sizes.high)
         angle = math.radians(min(max(degrees, self.angles.low), self.angles.high))
         steps = math.log(self.sizes.high / self.sizes.low), self.angles.width / self.angles.high
         digits = max(math.ceil(-math.log10(min(steps) / (POINTS - 1))) + 2, 5)
         sides = {"height": 2 * size * math.cos(angle), "width": 2 * size * math.sin(angle)}
-        return {name: written(float(f"{side:.{digits}g}")) for name, side in sides.items()}
+        return {name: written(float(f"{side:.{digits}g}")) for name, side in sides.items()} | {"offset": "0"}
 
 
 DEFAULT = GroundView()

@@ -212,8 +212,8 @@ function grid(name, across, up) {
 // ---- the block
 
 function scene() {
-  const { time, angle } = columns("history"), { height, width, critical, unit, base, frequency, phase } = shown.scene;
-  shoot(Array.from(angle, value => value * unit), critical, height, { time, width,
+  const { time, angle } = columns("history"), { height, width, critical, centre, unit, base, frequency, phase } = shown.scene;
+  shoot(Array.from(angle, value => value * unit), critical, height, { time, width, centre,
     displacement: at => -base * Math.cos(frequency * at + phase), speed: Math.max(2 * Math.PI / frequency / 1.2, (time[time.length - 1] - time[0]) / 40),
     moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) });
   clock = time[0] ?? 0;

@@ -266,11 +266,11 @@ def _stripes(points: int) -> np.ndarray:
 def curves(view: HarmonicView, axes: Axes) -> dict[str, Any]:
     """Return the visible part of the selected curves, dotted where the mode is not admissible.
 
-    They hold for a slender block without braces; otherwise there are none.
+    They hold for a slender, symmetric block without braces; otherwise there are none.
     """
     columns: dict[str, Any] = {"xs": [], "ys": [], "dash": []}
     (dx, dy), scale = axes.base, view.units.factor
-    hold = view.brace_angle is None and view.critical_angle is None
+    hold = view.brace_angle is None and view.critical_angle is None and not view.left
     for name in view.curves if hold else ():
         periods, *lines = _curve(name, view.periods, view.amplitudes, view.restitution)
         for line, dash in zip(lines, (DASHES[name], DOTTED), strict=True):

@@ -178,7 +178,7 @@ def _path(portrait: Contents) -> str:
     return "M" + "L".join(f"{x} {y}" for x, y in moves.tolist())
 
 
-def scene(view: HarmonicView) -> dict[str, float]:
+def scene(view: HarmonicView) -> dict[str, Any]:
     """Return what the page needs to draw the moving block: lengths in m, and angle and time in the units of the history.
 
     The base has the displacement −`base` cos(`frequency` t + `phase`). A block that is not given has any size.
@@ -192,6 +192,7 @@ def scene(view: HarmonicView) -> dict[str, float]:
         "height": block.height,
         "width": block.width,
         "critical": block.critical_angle,
+        "centre": [block.offset, block.centre_height] if block.offset else None,
         "unit": 1.0 / critical,
         "base": float(displacement),
         "frequency": math.tau / period,

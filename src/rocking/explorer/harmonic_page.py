@@ -36,7 +36,16 @@ MAPS = {"map": ("period", "amplitude"), "basin": ("angle", "velocity")}
 """Quantities of the axes of the maps."""
 RANGES = {"map": ("periods", "amplitudes"), "basin": ("angles", "velocities")}
 """Fields of their ranges."""
-SHAKEN = ("restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution", "critical_angle")
+SHAKEN = (
+    "restitution",
+    "phase",
+    "angle",
+    "velocity",
+    "brace_angle",
+    "brace_restitution",
+    "critical_angle",
+    "offset",
+)
 
 
 class HarmonicSession(Session):
@@ -123,7 +132,7 @@ class HarmonicSession(Session):
         """Return the units, the ranges of maps and slider, the moving block, and the code and the commands for this view."""
         view, units, slider = self.view, self.view.units, self._slider
         whole = attrs.evolve(
-            DEFAULT, height=view.height, width=view.width, restitution=view.restitution
+            DEFAULT, height=view.height, width=view.width, offset=view.offset, restitution=view.restitution
         ).shown
         return {
             "si": view.block is not None,

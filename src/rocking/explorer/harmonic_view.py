@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar
 
-from attrs import asdict, evolve, frozen
+from attrs import asdict, astuple, evolve, frozen
 
 from rocking.explorer.fields import (
     Field,
@@ -28,6 +28,7 @@ from rocking.explorer.figures import Axes
 from rocking.explorer.harmonic_units import Units
 from rocking.model import quantity as quantities
 from rocking.model.block import Block
+from rocking.model.quantity import LEFT_QUANTITIES
 from rocking.model.system import NO_BRACES, State, System, check_below_flat, check_start, system_of
 from rocking.model.validation import Refusal
 from rocking.plot import theory_curves
@@ -163,14 +164,30 @@ class HarmonicView(View):
         group=BLOCK,
         only="si",
     )
+    offset: float = entry(
+        0.0,
+        number(-quantities.SIZES[1], quantities.SIZES[1]),
+        symbol="d",
+        words="offset",
+        unit="m",
+        title="Distance of the mass centre from the middle of the base, in m, towards the edge about which the block turns for θ > 0",
+        group=BLOCK,
+        only="si",
+    )
 
     @property
     def system(self) -> System:
         """Selected system."""
-        angle = {"critical_angle": self.critical_angle or 0.0}
+        angle = {"critical_angle": self.critical_angle or 0.0} | self.left
         return system_of(
             asdict(self, recurse=False) | angle | (NO_BRACES if self.brace_angle is None else {})
         )
+
+    @property
+    def left(self) -> dict[str, float]:
+        """Quantities of the left side of an unsymmetric block in SI units, by name; none of any other."""
+        left = None if self.block is None else self.block.left
+        return {} if left is None else dict(zip(LEFT_QUANTITIES, astuple(left), strict=True))
 
     @property
     def start(self) -> State:
@@ -182,7 +199,11 @@ class HarmonicView(View):
         """Block in SI units, if its height and width are given."""
         if self.height is None or self.width is None:
             return None
-        return Block(self.height, self.width, self.restitution)
+        if self.offset == 0:
+            return Block(self.height, self.width, self.restitution)
+        own = Block(self.height, self.width, 0.5, offset=self.offset).housner_restitutions
+        left = own[1] if self.restitution == own[0] else self.restitution
+        return Block(self.height, self.width, self.restitution, offset=self.offset, left_restitution=left)
 
     @property
     def units(self) -> Units:
@@ -217,12 +238,12 @@ class HarmonicView(View):
         Refused
             If a field is invalid, with one message per field.
         """
-        sides = {name: typed[name] for name in ("height", "width") if name in typed}
+        sides = {name: typed[name] for name in ("height", "width", "offset") if name in typed}
         read, refused = read_fields(self.readers(), sides, self.labels())
         if refused:
             raise Refused(refused)
         view = evolve(self, **read)
-        block = view.block
+        block = view._checked_block()
         if self.block is not None and len(sides) == 1 and block is None:
             (name,) = sides
             raise self.refused(Missing(name, ""))
@@ -241,9 +262,15 @@ class HarmonicView(View):
         period = read.pop("frequency_hz", None)
         return evolve(view, **(read if period is None else read | {"period": period})).checked()
 
+    def _checked_block(self) -> Block | None:
+        try:
+            return self.block
+        except Refusal as error:
+            raise self.refused(error) from None
+
     def _housner(self, block: Block) -> float:
         try:
-            return Block(block.height, block.width).restitution
+            return Block(block.height, block.width, offset=block.offset).restitution
         except Refusal as error:
             raise self.refused(error) from None
 
@@ -255,7 +282,7 @@ class HarmonicView(View):
             names += ["brace_angle", "brace_restitution"]
         if self.critical_angle is not None:
             names.append("critical_angle")
-        return {name: getattr(self, name) for name in names}
+        return {name: getattr(self, name) for name in names} | self.left
 
     @property
     def map_axes(self) -> Axes:
@@ -289,12 +316,15 @@ class HarmonicView(View):
         Refused
             If the critical angle is that of another block, or if its block cannot have its braces or its initial state.
         """
+        self._checked_block()
         view = self._with_angle_of_block()
         if view.critical_angle is not None and view.brace_angle is not None:
             try:
                 check_below_flat(view.brace_angle, view.critical_angle)
             except Refusal as error:
                 raise self.refused(error) from None
+        if view.left and view.brace_angle is not None:
+            raise Refused({"offset": "offset must be 0 with braces, which are for a symmetric block"})
         try:
             check_start(view.system, view.start)
         except ValueError as error:

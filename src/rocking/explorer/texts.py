@@ -86,7 +86,10 @@ def _physical(forcing: Harmonic, block: Block) -> Facts:
     """Return the forcing and the block in SI units."""
     acceleration, seconds = block.acceleration(forcing.amplitude), block.seconds(forcing.period)
     base = f"{acceleration:.4g} m/s² ({acceleration / GRAVITY:.4g} g), {seconds:.4g} s ({1 / seconds:.4g} Hz)"
-    size = f"{block.size}, θcr {block.degrees(1.0):.4g}°, Housner’s e {block.housner_restitution:.4g}"
+    sides = 1 if block.left is None else 2
+    angles = ", ".join(f"{math.degrees(angle):.4g}°" for angle in block.critical_angles[:sides])
+    kept = ", ".join(f"{e:.4g}" for e in block.housner_restitutions[:sides])
+    size = f"{block.size}, θcr {angles}, Housner’s e {kept}"
     return [("forcing", base), ("block", size)]
 
 
@@ -211,6 +214,7 @@ def _code_in_si(view: HarmonicView, block: Block, phase: str) -> list[str]:
         braces = f", braces=rk.Braces({angle}, {view.brace_restitution!r})"
     given = block.restitution != block.housner_restitution
     restitution = f", restitution={view.restitution!r}" if given else ""
+    restitution += f", offset={block.offset!r}" if block.offset else ""
     model = "" if view.critical_angle is None else ', model="full"'
     forcing = f"acceleration={shown['amplitude']}, frequency_hz={shown['frequency_hz']}"
     return [
@@ -254,6 +258,7 @@ def _in_metres(view: HarmonicView, block: Block) -> tuple[str, str]:
     The map is over the period in s, because even steps of the frequency are not even steps of the period.
     """
     size, shown = f"--height {written(block.height)} --width {written(block.width)}", view.shown
+    size += f" --offset {written(block.offset)}" if block.offset else ""
     return (
         f"{size} --acceleration {shown['amplitude']} --frequency-hz {shown['frequency_hz']}",
         f"{size} --acceleration {shown['amplitudes']}:101 --period-s {shown['periods']}:101",

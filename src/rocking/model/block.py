@@ -7,19 +7,24 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from rocking.model.block_formulas import (
     GRAVITY,
+    NORMALISATIONS,
     Dimensions,
+    acceleration_unit_g,
     frequency_in_hertz,
     frequency_parameter,
     housner_restitution,
+    with_unit,
 )
 from rocking.model.forcing import BaseMotion, Forcing, Harmonic
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
-from rocking.model.quantity import AMPLITUDE, FREQUENCY, RESTITUTION, SIZES
-from rocking.model.system import Braces, System, critical_angle_for
+from rocking.model.quantity import AMPLITUDE, FREQUENCY, LEFT_RESTITUTION, SIZES
+from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, checked_law, law_of
+from rocking.model.section import SYMMETRIC, section_of
+from rocking.model.system import Braces, LeftSide, System, critical_angle_for, normalisation_for
 from rocking.model.validation import (
     MAX_REAL,
     Refusal,
@@ -27,8 +32,11 @@ from rocking.model.validation import (
     WrongType,
     exactly_one,
     explained,
+    finite,
     instance,
+    one_of,
     reals,
+    refuse_if,
     warn_of_value,
     within,
 )
@@ -49,14 +57,38 @@ def checked_width(value: float) -> float:
     return within("width", value, *SIZES, unit="m")
 
 
-def checked_restitution(value: float | None) -> float | None:
-    """Return the coefficient of restitution, after checking."""
-    return None if value is None else RESTITUTION.checked(value)
+def checked_left_restitution(value: float | None) -> float | None:
+    """Return the coefficient of restitution of an impact from the left side, after checking."""
+    return None if value is None else LEFT_RESTITUTION.checked(value)
 
 
-def checked_inertia_ratio(value: float) -> float:
+def checked_inertia_ratio(value: float | None) -> float | None:
     """Return the inertia ratio, after checking."""
-    return within("inertia_ratio", value, *INERTIA_RATIOS)
+    return None if value is None else within("inertia_ratio", value, *INERTIA_RATIOS)
+
+
+def checked_offset(value: float) -> float:
+    """Return the distance of the mass centre from the middle of the base in m, a finite number."""
+    return finite("offset", value, SIZES[1]) + 0.0
+
+
+def checked_centre_height(value: float | None) -> float | None:
+    """Return the height of the mass centre in m, after checking."""
+    return None if value is None else within("centre_height", value, *SIZES, unit="m")
+
+
+def checked_radius_of_gyration(value: float | None) -> float | None:
+    """Return the radius of gyration in m, after checking."""
+    return None if value is None else within("radius_of_gyration", value, 0.0, SIZES[1], unit="m")
+
+
+def _or_rectangle(inertia_ratio: float | None) -> float:
+    return RECTANGLE if inertia_ratio is None else inertia_ratio
+
+
+def checked_normalisation(value: str) -> str:
+    """Return the name of the unit of acceleration, after checking."""
+    return one_of("normalised_by", value, NORMALISATIONS)
 
 
 def size_warnings(checked_height: float, checked_width: float) -> Iterator[str]:
@@ -78,19 +110,35 @@ class Block(Dimensions):
     ----------
     height, width : float
         Height H and width B in metres, in [0.001, 1000].
-    restitution : float, optional
-        Coefficient of restitution e of Eq. (2), in [0, 1]. Default: Housner's value,
-        e = 1 − 2 sin²θcr/`inertia_ratio`, which conserves the angular momentum about the corner of the impact.
-    inertia_ratio : float
-        Io/(MR²), normalised moment of inertia about a corner, in [1, 10]. Default: 4/3, a uniform rectangle.
+    restitution : float or Restitution, optional
+        Coefficient of restitution e of Eq. (2), in [0, 1], or a law: a table over the speed, a factor, or scatter. Default:
+        Housner's value, e = 1 − 2 sin²θcr/`inertia_ratio`, which conserves the angular momentum about the corner of the impact.
+    inertia_ratio : float, optional
+        Io/(MR²), normalised moment of inertia about a corner, in [1, 10]. Default: that of a uniform rectangle of this height and
+        width, 4/3 if the mass centre is its middle. With an `offset` give `radius_of_gyration` instead: the corners differ.
+    normalised_by : {"angle", "tangent"}
+        Unit of `acceleration` and `amplitude`: g θcr, or g tan θcr. The block of a system has that of the system. It has no effect
+        on equality, nor on what `system` returns. Default: "angle".
+    offset : float
+        Distance of the mass centre from the middle of the base, in metres, towards the edge about which the block turns for
+        θ > 0. It is smaller than half the width. Default: 0. A positive sample of the base acceleration tips the block towards
+        θ < 0.
+    centre_height : float, optional
+        Height h of the mass centre above the base, in metres, up to the height. Default: half the height.
+    radius_of_gyration : float, optional
+        Radius of gyration k = √(I/M) about the mass centre, in metres. Default: that of `inertia_ratio`; without it that of a
+        uniform rectangle, k² = (H² + B²)/12.
+    left_restitution : float, optional
+        Coefficient of restitution of an impact that ends the motion on the side θ < 0; `restitution` is then that of the other
+        impacts. Default: `restitution`, or the value that conserves the angular momentum about the corner of the impact.
 
     Raises
     ------
     TypeError
-        If a value is not a real number.
+        If a value is not a real number, or if both `inertia_ratio` and `radius_of_gyration` are given.
     ValueError
-        If a value lies outside its range, or if Housner's coefficient of restitution is negative (a squat block) and
-        `restitution` is not given.
+        If a value lies outside its range, or if the mass centre is not above the base. Also if Housner's coefficient of
+        restitution is negative (a squat block) and `restitution` is not given.
 
     Warns
     -----
@@ -99,8 +147,13 @@ class Block(Dimensions):
 
     Notes
     -----
-    Any proportions are allowed, but the equations are those of a slender block, sin θ ≈ θ. `Motion.validity` reports
-    how far a motion leaves the range of this approximation.
+    Any proportions are allowed. On a harmonic base the equation is that of a slender block, sin θ ≈ θ, unless `system` is told
+    otherwise. `Motion.validity` reports how far a motion leaves the range of this approximation.
+
+    Side 1 is θ > 0, the right one, and side 2 is θ < 0. With the offset d, b₁ = B/2 − d and b₂ = B/2 + d are the distances of
+    the edges from the foot of the mass centre. With R_i² = h² + b_i² they give θcr_i = arctan(b_i/h), α_i² = gR_i/(k² + R_i²),
+    e₁₂ = (k² + h² − b₁b₂)/(k² + R₂²) for the impact from side 1 to side 2, and e₂₁ with R₁. Properties and conversions are those
+    of side 1: angles are in units of θcr₁ and times in units of 1/α₁ on both sides. `left` relates side 2 to side 1.
 
     References
     ----------
@@ -119,55 +172,255 @@ class Block(Dimensions):
     (0.244, 2.402, 1.00)
     >>> block.system(acceleration=3.0, period_s=0.8).forcing.amplitude > 1
     True
+    >>> left = Block(height=2.0, width=0.6, offset=0.05).left
+    >>> round(left.angle_ratio, 6), round(left.frequency_ratio, 6), round(left.restitution, 6)
+    (1.374303, 0.993147, 0.894798)
     """
 
     height: float = field(converter=checked_height)
     width: float = field(converter=checked_width)
-    _restitution: float | None = field(default=None, converter=checked_restitution)
-    inertia_ratio: float = field(default=RECTANGLE, converter=checked_inertia_ratio)
+    _restitution: float | Restitution | None = field(default=None, converter=checked_law)
+    _inertia_ratio: float | None = field(default=None, converter=checked_inertia_ratio, eq=_or_rectangle)
+    normalised_by: str = field(default="angle", converter=checked_normalisation, kw_only=True, eq=False)
+    offset: float = field(default=0.0, converter=checked_offset, kw_only=True)
+    _centre_height: float | None = field(default=None, converter=checked_centre_height, kw_only=True)
+    _radius_of_gyration: float | None = field(
+        default=None, converter=checked_radius_of_gyration, kw_only=True
+    )
+    _left_restitution: float | None = field(default=None, converter=checked_left_restitution, kw_only=True)
 
     def __attrs_post_init__(self) -> None:
+        self._check_mass_centre()
         for doubt in size_warnings(self.height, self.width):
             warn_of_value(doubt)
-        if self.has_housner_restitution and self.restitution < 0:
-            housner = f"{self.restitution:.3g} by Housner's formula for a block {self.height:g} m high and {self.width:g} m wide"
+        if not self.has_equal_sides:  # without its ratios, which may be beyond the range of a system
+            check_uniform(self.law.rows, "an unsymmetric block")
+        ends = min(self.restitution, self.left_restitution), max(self.restitution, self.left_restitution)
+        if not (ends[0] >= 0.0 and ends[1] <= 1.0):
+            wrong = ends[0] if ends[0] < 0.0 else ends[1]
+            housner = f"{wrong:.3g} by {self.law.origin} for a block {self.height:g} m high and {self.width:g} m wide"
+            if wrong > 1.0:  # Housner's value alone is at most 1
+                raise Refusal(
+                    "restitution", "give a coefficient in [0, 1]", Text(housner), "reduce the factor"
+                )
             remedy = "are {height} and {width} swapped? If not, give {restitution}"
             raise Refusal("restitution", "lie in [0, 1]", Text(housner), remedy)
 
+    def _check_mass_centre(self) -> None:
+        """Refuse a mass centre that is not above the base, and an inertia that is stated twice or that no body has."""
+        half = self.width / 2
+        allowed = f"lie between {-half:.6g} and {half:.6g} m, so that the mass centre is above the base"
+        refuse_if(not -half < self.offset < half, "offset", allowed, self.offset)
+        if self._centre_height == self.height / 2:
+            object.__setattr__(self, "_centre_height", None)
+        allowed = f"be at most the height, {self.height:g} m"
+        refuse_if(self.centre_height > self.height, "centre_height", allowed, self.centre_height)
+        if self._inertia_ratio is not None and self._radius_of_gyration is not None:
+            remedy = "both state the inertia"
+            raise WrongType(
+                "inertia_ratio", "be omitted with {radius_of_gyration}", self._inertia_ratio, remedy
+            )
+        if self._inertia_ratio is not None and self.offset != 0:
+            remedy = "give {radius_of_gyration}: the corners differ"
+            raise WrongType("inertia_ratio", "be omitted with {offset}", self._inertia_ratio, remedy)
+        reach = math.sqrt(INERTIA_RATIOS[1] - 1) * min(self.radii)
+        allowed = f"be at most {reach:.6g} m, three times the distance of a corner from the mass centre"
+        refuse_if(
+            self.radius_of_gyration > reach * (1 + 1e-12),
+            "radius_of_gyration",
+            allowed,
+            self.radius_of_gyration,
+        )
+
+    @classmethod
+    def from_outline(
+        cls, outline: Any, restitution: float | None = None, *, left_restitution: float | None = None
+    ) -> Block:
+        """Return the block whose section is a polygon of uniform density.
+
+        The base reaches from the first to the last of the lowest corners. Mass centre and radius of gyration are those of the
+        polygon. An offset below 1e-12 of the width counts as 0, and so does such a difference from the mass centre and the radius of
+        gyration of a rectangle.
+
+        Parameters
+        ----------
+        outline : array_like of float, shape (n, 2)
+            Corners (x, y) in metres in the order of the outline, n in [3, 1000]. x points towards the edge about which the block
+            turns for θ > 0, and y points up.
+        restitution, left_restitution : float, optional
+            As for `Block`.
+
+        Returns
+        -------
+        Block
+            Block with the height of the polygon and the width of its base.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If `outline` is no such array, crosses itself, has no area or only one lowest corner, or if the centroid is not above
+            the base.
+
+        Examples
+        --------
+        >>> block = Block.from_outline([(0, 0), (0.6, 0), (0.4, 2.0), (0, 2.0)])
+        >>> block.width, round(block.offset, 4), round(block.centre_height, 4)
+        (0.6, -0.0467, 0.9333)
+        """
+        section = section_of(outline)
+        usual = math.hypot(section.height, section.width) / math.sqrt(12.0)
+        uniform = abs(section.radius_of_gyration - usual) <= SYMMETRIC * usual
+        halfway = abs(section.centre_height - section.height / 2) <= SYMMETRIC * section.height
+        return cls(
+            section.height,
+            section.width,
+            restitution,
+            offset=section.offset,
+            centre_height=None if halfway else section.centre_height,
+            radius_of_gyration=None if uniform else section.radius_of_gyration,
+            left_restitution=left_restitution,
+        )
+
+    def resized(self, height: float, width: float) -> Block:
+        """Return the block stretched to another height and width in metres, with its mass centre at the same place in it.
+
+        A given coefficient of restitution or inertia ratio stays. A given radius of gyration is in proportion to the diagonal.
+        Errors as for the constructor.
+        """
+        height, width = checked_height(height), checked_width(width)
+        centre, gyration = self._centre_height, self._radius_of_gyration
+        stretch = math.hypot(height, width) / math.hypot(self.height, self.width)
+        return Block(
+            height,
+            width,
+            self._restitution,
+            self._inertia_ratio,
+            offset=self.offset * (width / self.width),
+            centre_height=None if centre is None else centre * (height / self.height),
+            radius_of_gyration=None if gyration is None else gyration * stretch,
+            left_restitution=self._left_restitution,
+            normalised_by=self.normalised_by,
+        )
+
     @property
     def size(self) -> str:
-        """Height and width as text, such as "2 m × 0.5 m"."""
-        return f"{self.height:g} m × {self.width:g} m"
+        """Height and width as text, such as "2 m × 0.5 m", and the offset of the mass centre if there is one."""
+        offset = f", offset {self.offset:g} m" if self.offset else ""
+        return f"{self.height:g} m × {self.width:g} m{offset}"
+
+    @property
+    def centre_height(self) -> float:
+        """Height h of the mass centre above the base, in metres."""
+        return self.height / 2 if self._centre_height is None else self._centre_height
+
+    @property
+    def edges(self) -> tuple[float, float]:
+        """Distances b₁ and b₂ of the edges of side 1 and side 2 from the foot of the mass centre, in metres."""
+        return self.width / 2 - self.offset, self.width / 2 + self.offset
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Distances R₁ and R₂ of both corners from the mass centre, in metres."""
+        first, second = self.edges
+        return math.hypot(self.centre_height, first), math.hypot(self.centre_height, second)
+
+    @property
+    def critical_angles(self) -> tuple[float, float]:
+        """Critical angles of side 1 and side 2, arctan(b₁/h) and arctan(b₂/h), in radians."""
+        first, second = self.edges
+        return math.atan2(first, self.centre_height), math.atan2(second, self.centre_height)
+
+    @property
+    def frequency_parameters(self) -> tuple[float, float]:
+        """Frequency parameters of side 1 and side 2, √(gR_i/(k² + R_i²)), in 1/s."""
+        second, k = self.radii[1], self.radius_of_gyration
+        if self.offset == 0:
+            return self.frequency_parameter, self.frequency_parameter
+        return self.frequency_parameter, frequency_parameter(second, 1 + (k / second) ** 2)
+
+    @property
+    def housner_restitutions(self) -> tuple[float, float]:
+        """Coefficients of restitution e₁₂ and e₂₁ that conserve the angular momentum about the corner of the impact."""
+        if self.offset == 0:
+            symmetric = housner_restitution(self.critical_angle, self.inertia_ratio)
+            return symmetric, symmetric
+        (first, second), k = self.radii, self.radius_of_gyration
+        kept = k**2 + self.centre_height**2 - self.edges[0] * self.edges[1]
+        return kept / (k**2 + second**2), kept / (k**2 + first**2)
 
     @property
     def radius(self) -> float:
-        """Distance R from a corner to the centre of mass, in metres."""
-        return math.hypot(self.height, self.width) / 2
+        """Distance R from a corner to the centre of mass, in metres; that of side 1."""
+        return self.radii[0]
 
     @property
     def critical_angle(self) -> float:
-        """Critical angle θcr = arctan(B/H) in radians, beyond which the block overturns under its own weight."""
-        return math.atan2(self.width, self.height)
+        """Critical angle θcr = arctan(B/H) in radians, beyond which the block overturns under its own weight; that of side 1."""
+        return self.critical_angles[0]
+
+    @property
+    def inertia_ratio(self) -> float:
+        """Io/(MR²), normalised moment of inertia about a corner; that of side 1."""
+        if self._radius_of_gyration is not None:
+            return 1 + (self._radius_of_gyration / self.radius) ** 2
+        if self._inertia_ratio is not None or (self.offset == 0 and self._centre_height is None):
+            return _or_rectangle(self._inertia_ratio)
+        return 1 + (self.height**2 + self.width**2) / 12 / self.radius**2
+
+    @property
+    def radius_of_gyration(self) -> float:
+        """Radius of gyration k about the mass centre, in metres."""
+        if self._radius_of_gyration is not None:
+            return self._radius_of_gyration
+        return self.radius * math.sqrt(self.inertia_ratio - 1)
 
     @property
     def frequency_parameter(self) -> float:
-        """Frequency parameter α = √(MgR/Io) in 1/s. Normalised time is τ = αt."""
+        """Frequency parameter α = √(MgR/Io) in 1/s. Normalised time is τ = αt. That of side 1."""
         return frequency_parameter(self.radius, self.inertia_ratio)
 
     @property
     def housner_restitution(self) -> float:
-        """Housner's (1963) coefficient of restitution, 1 − 2 sin²θcr/(Io/MR²); 1 − (3/2) sin²θcr for a uniform rectangle."""
-        return housner_restitution(self.critical_angle, self.inertia_ratio)
+        """Housner's (1963) coefficient of restitution, 1 − 2 sin²θcr/(Io/MR²); 1 − (3/2) sin²θcr for a uniform rectangle.
+
+        For an unsymmetric block it is e₁₂, that of an impact from side 1 to side 2.
+        """
+        return self.housner_restitutions[0]
 
     @property
     def has_housner_restitution(self) -> bool:
-        """True if `restitution` was not given, so that Housner's value applies."""
-        return self._restitution is None
+        """True if Housner's value applies, with or without scatter."""
+        return self.law.is_housner
+
+    @property
+    def law(self) -> Restitution:
+        """Law of restitution."""
+        return law_of(self._restitution)
 
     @property
     def restitution(self) -> float:
-        """Coefficient of restitution e of Eq. (2): the given value, or Housner's."""
-        return self.housner_restitution if self._restitution is None else self._restitution
+        """Coefficient of restitution e of Eq. (2), e₁₂ for an unsymmetric block: the given one, or Housner's; of a table its first."""
+        return self.law.coefficient(self.housner_restitution)
+
+    @property
+    def left_restitution(self) -> float:
+        """Coefficient of restitution e₂₁ of an impact from side 2 to side 1: the given value, `restitution`, or Housner's."""
+        if self._left_restitution is not None:
+            return self._left_restitution
+        return self.law.coefficient(self.housner_restitutions[1])
+
+    @property
+    def has_equal_sides(self) -> bool:
+        """Flag: the block is symmetric, and its impacts do not differ by their direction."""
+        return self.offset == 0 and self.left_restitution == self.restitution
+
+    @property
+    def left(self) -> LeftSide | None:
+        """Side θ < 0 in units of side 1, if it differs; None for a symmetric block."""
+        if self.has_equal_sides:
+            return None
+        angles, rates = self.critical_angles, self.frequency_parameters
+        return LeftSide(angles[1] / angles[0], rates[1] / rates[0], self.left_restitution)
 
     @explained
     def system(
@@ -181,7 +434,8 @@ class Block(Dimensions):
         period_s: float | None = None,
         phase: float = 0.0,
         braces: Braces | None = None,
-        model: str = "slender",
+        model: str | None = None,
+        normalised_by: str | None = None,
     ) -> System:
         """Return the normalised system of this block on a shaking base: Eqs. (3) and (4).
 
@@ -198,8 +452,12 @@ class Block(Dimensions):
             Phase φ of the base acceleration a_x cos(ωt + φ), in radians, in [-1000, 1000]. Default: 0.
         braces : Braces, optional
             Braces with a normalised angle, such as `Braces(angle=block.angle(degrees=3))`. Default: no braces.
-        model : {"slender", "full"}
-            Equation of motion: that of small angles, or the full one. Default: "slender".
+        model : {"slender", "full"}, optional
+            Equation of motion: that of small angles, or the full one. Default: "full" under a ground motion or a pulse, "slender" on
+            a harmonic base.
+        normalised_by : {"angle", "tangent"}, optional
+            Unit of the base acceleration: g θcr of Yim & Lin (1991), or g tan θcr, at which the real block lifts off. "tangent" is
+            for the slender block under a ground motion or a pulse, where it is the default. Default otherwise: "angle".
 
         Returns
         -------
@@ -222,6 +480,14 @@ class Block(Dimensions):
         --------
         >>> Block(height=2.0, width=0.5).system(acceleration_g=0.3, frequency_hz=1.2).forcing.amplitude > 1.2
         True
+
+        At g tan θcr the block is about to lift off.
+
+        >>> from rocking import Pulse
+        >>> pulse = Pulse("one-sine", amplitude=GRAVITY * 0.5 / 2.0, duration=0.5)
+        >>> system = Block(height=2.0, width=0.5).system(pulse, model="slender")
+        >>> round(system.forcing.amplitude, 12), system.normalised_by
+        (1.0, 'tangent')
         """
         harmonic = {
             "acceleration": acceleration,
@@ -230,20 +496,36 @@ class Block(Dimensions):
             "frequency_hz": frequency_hz,
             "period_s": period_s,
         }
+        if model is None:
+            model = "slender" if base is None else "full"
+        if self.left is not None and braces is not None:
+            got = Text(f"braces at {braces.angle:g}")
+            raise WrongType("braces", "be omitted for a block with unequal sides", got, "or omit {offset}")
         angle = critical_angle_for(model, self.critical_angle, self.width)
+        critical_angle_for(model, self.critical_angles[1], self.width)
+        check_model(self.law, model)
+        own = with_unit(self, normalisation_for(normalised_by, model, finite=base is not None))
         if base is None:
-            return self._made(self._harmonic(**harmonic, phase=phase), braces, angle)
+            return own._made(own._harmonic(**harmonic, phase=phase), braces, angle, self.law.scatter)
         values = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
         if values:
             raise WrongType(values[0], "be omitted with {base}")
         if isinstance(base, GroundMotion) and base.vertical:
             warn_of_value(vertical_sentence([base.component]))
-        scales = self.acceleration(1.0), self.frequency_parameter
-        return self._made(instance("base", base, BaseMotion).normalised(*scales), braces, angle)
+        scales = own.acceleration(1.0), self.frequency_parameter
+        forcing = instance("base", base, BaseMotion).normalised(*scales)
+        scatter = self.law.scatter
+        if scatter is not None and isinstance(base, GroundMotion):
+            scatter = evolve(scatter, run=base.number)
+        return own._made(forcing, braces, angle, scatter)
 
-    def _made(self, forcing: Forcing, braces: Braces | None, critical_angle: float | None) -> System:
+    def _made(
+        self, forcing: Forcing, braces: Braces | None, critical_angle: float | None, scatter: Scatter | None
+    ) -> System:
         """Return the system of the block, which it knows."""
-        return System(forcing, self.restitution, braces, critical_angle, block=self)
+        rows = self.law.normalised_rows(float(self.radians_per_second(1.0)))
+        more: dict[str, Any] = {"restitution_table": rows, "restitution_scatter": scatter}
+        return System(forcing, self.restitution, braces, critical_angle, left=self.left, block=self, **more)
 
     def _harmonic(
         self,
@@ -274,13 +556,18 @@ class Block(Dimensions):
         hertz = frequency_in_hertz(frequency_hz, period_s, low, high)
         return min(max(self.frequency(hertz), FREQUENCY.range[0]), FREQUENCY.range[1])
 
+    @property
+    def acceleration_unit_g(self) -> float:
+        """Base acceleration in g that is 1 if it is normalised: θcr or tan θcr, as `normalised_by` says."""
+        return acceleration_unit_g(self.critical_angle, self.normalised_by)
+
     def acceleration(self, amplitude: Any) -> Any:
-        """Base acceleration a_x = A g θcr in m/s², from a normalised amplitude A."""
-        return reals("amplitude", amplitude) * (GRAVITY * self.critical_angle)
+        """Base acceleration a_x in m/s², from a normalised amplitude A: A g θcr or A g tan θcr, as `normalised_by` says."""
+        return reals("amplitude", amplitude) * (GRAVITY * self.acceleration_unit_g)
 
     def amplitude(self, acceleration: Any) -> Any:
-        """Normalised amplitude A = a_x/(g θcr), from an acceleration in m/s²."""
-        return reals("acceleration", acceleration) / (GRAVITY * self.critical_angle)
+        """Normalised amplitude A from an acceleration a_x in m/s²: a_x/(g θcr) or a_x/(g tan θcr), as `normalised_by` says."""
+        return reals("acceleration", acceleration) / (GRAVITY * self.acceleration_unit_g)
 
     def seconds(self, time: Any) -> Any:
         """Time t = τ/α in seconds, from a normalised time or period."""
@@ -360,20 +647,49 @@ class Block(Dimensions):
         return np.arcsin(sine) / self.critical_angle
 
     def __repr__(self) -> str:
-        origin = "by Housner's formula" if self.has_housner_restitution else "as chosen"
-        inertia = "" if self.inertia_ratio == RECTANGLE else f", inertia_ratio={self.inertia_ratio:g}"
-        return (
-            f"Block(height={self.height} m, width={self.width} m, "
-            f"restitution={self.restitution:.6g} {origin}{inertia})"
+        law = self.law
+        values = f"restitution={self.restitution:.6g} " + (
+            "as chosen" if law.value is not None else f"by {law.origin}"
         )
+        values += "" if law.scatter is None else f" with {law.scatter}"
+        if self.left_restitution != self.restitution:
+            values += f", left_restitution={self.left_restitution:.6g}"
+        if self._inertia_ratio not in (None, RECTANGLE):
+            values += f", inertia_ratio={self.inertia_ratio:g}"
+        for name in ("offset", "centre_height", "radius_of_gyration"):
+            given = self.offset or None if name == "offset" else getattr(self, f"_{name}")
+            values += "" if given is None else f", {name}={given:.6g} m"
+        return f"Block(height={self.height} m, width={self.width} m, {values})"
 
 
-def block_attributes(block: Block) -> dict[str, float]:
-    """Return the dimensions of a block as attributes of a file."""
+def symmetric_block(block: Any, name: str = "block") -> Block:
+    """Return a block, after checking that it is symmetric; TypeError or ValueError, which names the argument, for anything else."""
+    left = instance(name, block, Block).left
+    remedy = "the formula holds for equal sides"
+    refuse_if(left is not None, name, "be symmetric", Text(f"one with {{offset}} {block.offset:g} m"), remedy)
+    return block
+
+
+def block_attributes(block: Block) -> dict[str, Any]:
+    """Return the dimensions of a block as attributes of a file, and its unit of acceleration if it is g tan θcr."""
+    by = {"normalised_by": "tangent"} if block.normalised_by == "tangent" else {}
+    unsymmetric = (
+        {}
+        if block.offset == 0
+        else {
+            "block_offset_m": block.offset,
+            "block_left_critical_angle_rad": block.critical_angles[1],
+            "block_left_frequency_parameter_per_s": block.frequency_parameters[1],
+        }
+    )
+    centre = {} if block.centre_height == block.height / 2 else {"block_centre_height_m": block.centre_height}
     return {
+        **by,
         "block_height_m": block.height,
         "block_width_m": block.width,
         "block_inertia_ratio": block.inertia_ratio,
         "block_critical_angle_rad": block.critical_angle,
         "block_frequency_parameter_per_s": block.frequency_parameter,
+        **unsymmetric,
+        **centre,
     }

@@ -3,10 +3,20 @@
 from __future__ import annotations
 
 import math
+from typing import Any
+
+from attrs import evolve
 
 from rocking.model.validation import exactly_one, within
 
 GRAVITY = 9.80665
+NORMALISATIONS = ("angle", "tangent")
+"""Units of the base acceleration: g θcr of Yim & Lin (1991), or g tan θcr, at which a real block lifts off."""
+
+
+def acceleration_unit_g(critical_angle: float, normalised_by: str) -> float:
+    """Return the base acceleration in g that is 1 if it is normalised: θcr, or tan θcr."""
+    return critical_angle if normalised_by == "angle" else math.tan(critical_angle)
 
 
 def frequency_parameter(radius: float, inertia_ratio: float) -> float:
@@ -30,3 +40,8 @@ class Dimensions:
     """Base class of `Block`, by which a system knows that it has one."""
 
     __slots__ = ()
+
+
+def with_unit(block: Any, normalised_by: str) -> Any:
+    """Return a block with a unit of acceleration; the same object if it has it, so that no warning is repeated."""
+    return block if block.normalised_by == normalised_by else evolve(block, normalised_by=normalised_by)

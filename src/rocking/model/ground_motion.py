@@ -8,30 +8,44 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from hashlib import sha256
 from typing import Any
 
 import attrs
 import numpy as np
-from attrs import evolve, field, frozen
+from attrs import field, frozen
 
 from rocking.model import forcing
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.block_formulas import GRAVITY
+from rocking.model.changed_motion import MAX_ACCELERATION, MAX_FACTOR, STEPS, ChangedMotion, checked_pair
 from rocking.model.forcing import UNITS, BaseMotion, PiecewiseLinear, velocity_and_displacement
+from rocking.model.intensity import (
+    BRACKET,
+    DAMPING,
+    MAX_DAMPING,
+    PERIODS,
+    SIGNIFICANT,
+    absolute_integral,
+    bracketed_duration,
+    cumulative_square,
+    oscillation,
+    pseudo_acceleration,
+    rotated_peaks,
+)
 from rocking.model.text import listed
 from rocking.model.validation import (
     Refusal,
-    exactly_one,
+    WrongType,
     finite,
     instance,
+    members,
     one_of,
     reals,
     warn_of_value,
     within,
 )
 
-STEPS = (1e-6, 1e3)
-MAX_ACCELERATION = MAX_FACTOR = 1e6
 BASELINES = {"none": None, "mean": 0, "linear": 1, "quadratic": 2}
 """Degree of the polynomial that is fitted to the acceleration and subtracted."""
 
@@ -54,6 +68,14 @@ def checked_name(value: str) -> str:
 def checked_component(value: str) -> str:
     """Return the component, after checking."""
     return instance("component", value, str)
+
+
+def checked_changes(values: Any) -> tuple[str, ...]:
+    """Return the changes, after checking."""
+    rule = "be sentences on what was done to the samples"
+    if isinstance(values, str):
+        raise WrongType("changes", rule, values)
+    return tuple(instance("changes", each, str) for each in members("changes", values, rule))
 
 
 def checked_factor(value: float) -> float:
@@ -126,46 +148,6 @@ def vertical_sentence(names: Sequence[str]) -> str:
     return f"{which.format(listed(names))} vertical, and the base moves horizontally: choose a horizontal component"
 
 
-SMALL = 1.0
-TERMS = 24
-
-
-def pseudo_acceleration(acceleration: np.ndarray, step: float, period: float, damping: float) -> float:
-    """Return ω² max|u| at the samples, with u'' + 2ζω u' + ω² u = −a from rest.
-
-    The time is s = ωt, x is ω² u, and λ = −ζ + i√(1−ζ²) is a root of the oscillator. Then q = x' − λ*x obeys q' = λq − a,
-    one recursion of first order, and x = Im q / Im λ.
-
-    Examples
-    --------
-    >>> round(pseudo_acceleration(np.ones(101), step=0.01, period=1.0, damping=0.0), 9)
-    2.0
-    """
-    from scipy.signal import lfilter
-
-    turn = 2 * math.pi * step / period
-    root = complex(-damping, math.sqrt(1 - damping**2))
-    growth, start, end = _exact_step(root * turn)
-    a = np.concatenate(([0.0], acceleration))
-    # The 0 in front stands for rest at the first sample, from which no interval leads back.
-    drive = start * turn * a[:-1] + end * turn * a[1:]
-    drive[0] = 0.0
-    q = lfilter([1.0], [1.0, -growth], drive)
-    return float(np.abs(q.imag).max()) / root.imag
-
-
-def _exact_step(z: complex) -> tuple[complex, complex, complex]:
-    """Return e^z, and the weights of both ends of a linear function in ∫₀¹ e^(z(1−s)) f(s) ds."""
-    if abs(z) < SMALL:
-        second = sum(z**k / math.factorial(k + 2) for k in range(TERMS))
-        first = 1 + z * second
-        return 1 + z * first, first - second, second
-    growth = np.exp(z)
-    first = (growth - 1) / z
-    second = (first - 1) / z
-    return growth, first - second, second
-
-
 RELATIVE_TOLERANCE = 0.01
 """Allowed relative difference between the two peaks: that of samples printed with three digits."""
 
@@ -184,6 +166,8 @@ class RecordFile:
         Format of the file, such as "PEER AT2".
     channel : str
         Channel of the file, such as "channel 1 of 3, 90°"; empty if it has only one.
+    station : str
+        Name of the station or the record in the header; empty if it gives none.
     pga : float or None
         Peak ground acceleration of the samples as read, in m/s².
     header_pga : float or None
@@ -205,6 +189,7 @@ class RecordFile:
     pga: float | None = None
     header_pga: float | None = None
     header_rounding: float = 0.0
+    station: str = ""
 
     @property
     def pga_difference(self) -> float | None:
@@ -220,14 +205,22 @@ class RecordFile:
         return abs(difference) <= self.header_rounding + RELATIVE_TOLERANCE * self.header_pga
 
 
-PERIODS = (1e-4, 1e4)
-MAX_DAMPING = 0.99
-SIGNIFICANT = (0.05, 0.95)
-"""Shares of the Arias intensity at the ends of the significant duration."""
+def _oscillators(periods: Any, damping: float) -> tuple[np.ndarray, float]:
+    """Return natural periods in s, of any shape, and the damping ratio, after checking."""
+    values = np.asarray(reals("periods", periods), dtype=float)
+    shortest, longest = PERIODS
+    if not ((values >= shortest) & (values <= longest)).all():
+        raise Refusal("periods", f"lie in [{shortest:g}, {longest:g}] s", periods)
+    return values, within("damping", damping, 0, MAX_DAMPING)
+
+
+def _shaped(rows: list[float], like: np.ndarray) -> Any:
+    """Return numbers in the shape of an array, a float for a number."""
+    return rows[0] if like.ndim == 0 else np.reshape(np.array(rows, dtype=float), like.shape)
 
 
 @frozen(repr=False)
-class GroundMotion(BaseMotion, ReadOnlyArrays):
+class GroundMotion(BaseMotion, ReadOnlyArrays, ChangedMotion):
     """Horizontal acceleration of the ground in SI units, linear between equidistant samples.
 
     Scaled and reversed motions share the samples. The last sample ends the motion: the acceleration is 0 before the first and
@@ -247,6 +240,8 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         Factor of all samples. Default: 1.
     file : RecordFile, optional
         File that the samples were read from. Default: None.
+    changes : iterable of str
+        What was done to the samples since they were read, one sentence per change. Default: nothing.
 
     Raises
     ------
@@ -256,7 +251,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     Warns
     -----
     InputWarning
-        If the PGA is below 0.01 or above 50 m/s²: the unit is probably another. A scaled motion may have any PGA.
+        If the PGA is below 0.01 or above 50 m/s²: the unit is probably another. A scaled or changed motion may have any PGA.
 
     Examples
     --------
@@ -279,10 +274,11 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     baseline: str = field(default="none", converter=checked_baseline, kw_only=True)
     factor: float = field(default=1.0, converter=checked_factor, kw_only=True)
     file: RecordFile | None = field(default=None, kw_only=True)
+    changes: tuple[str, ...] = field(default=(), converter=checked_changes, kw_only=True)
     _corrected: bool = field(default=False, kw_only=True, repr=False, eq=False)
 
     def __attrs_post_init__(self) -> None:
-        if self.factor == 1.0 and (doubt := pga_doubt(self.pga)):
+        if self.factor == 1.0 and not self.changes and (doubt := pga_doubt(self.pga)):
             warn_of_value(doubt)
         degree = BASELINES[self.baseline]
         if degree is None or self._corrected:
@@ -355,28 +351,65 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         return drift_doubt(self)
 
     @property
+    def pgv_to_pga(self) -> float:
+        """PGV/PGA in s, a time scale of the motion; NaN without motion."""
+        pga = self.pga
+        return self.pgv / pga if pga > 0.0 else math.nan
+
+    @property
     def arias_intensity(self) -> float:
         """Arias intensity π/(2g) ∫a² dt in m/s, exact for the straight segments."""
-        return float(self._energy()[-1]) * math.pi / (2 * GRAVITY)
+        return float(cumulative_square(self.acceleration, self.step)[-1]) * math.pi / (2 * GRAVITY)
+
+    @property
+    def cav(self) -> float:
+        """Cumulative absolute velocity ∫|a| dt in m/s, exact for the straight segments: EPRI NP-5930 (1988), without a threshold."""
+        return absolute_integral(self.acceleration, self.step)
 
     @property
     def significant_duration(self) -> float:
         """Time between 5 % and 95 % of the Arias intensity, in s, linear between samples; 0 without motion."""
-        energy = self._energy()
+        energy = cumulative_square(self.acceleration, self.step)
         if energy[-1] == 0.0:
             return 0.0
         first, last = np.interp([share * energy[-1] for share in SIGNIFICANT], energy, self.times)
         return float(last - first)
 
-    def _energy(self) -> np.ndarray:
-        a = self.acceleration
-        parts = (a[:-1] ** 2 + a[:-1] * a[1:] + a[1:] ** 2) * (self.step / 3)
-        return np.concatenate(([0.0], np.cumsum(parts)))
+    def bracketed_duration(self, threshold: float = BRACKET) -> float:
+        """Return the time between the first and the last |acceleration| of at least a threshold.
 
-    def response_spectrum(self, periods: Any, damping: float = 0.05) -> Any:
-        """Return the pseudo-acceleration ω² max|u| of linear oscillators.
+        Parameters
+        ----------
+        threshold : float
+            Acceleration in m/s², in [1e-9, 1e6]. Default: 0.05 g, as in Bolt (1973).
 
-        The recursion is exact for straight segments. The largest displacement is taken at the samples, during the motion only.
+        Returns
+        -------
+        float
+            Duration in s, exact for the straight segments; 0 if no sample reaches the threshold.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If the threshold is not a real number or lies outside its range.
+
+        References
+        ----------
+        Bolt, Duration of strong ground motion, Proc. 5th World Conf. Earthquake Eng., 1304–1313 (1973).
+
+        Examples
+        --------
+        >>> GroundMotion([0.0, 2.0, 0.0, -2.0, 0.0], step=0.5).bracketed_duration(1.0)
+        1.5
+        """
+        limit = within("threshold", threshold, 1e-9, MAX_ACCELERATION, "m/s²")
+        return bracketed_duration(self.acceleration, self.step, limit)
+
+    def response_spectrum(self, periods: Any, damping: float = DAMPING) -> Any:
+        """Return the pseudo-acceleration Sa = ω² max|u| of linear oscillators.
+
+        The recursion is exact for straight segments. The largest displacement is that during the motion, between the samples,
+        too, where cubics take its place: they are accurate to 1e-4 for periods above a third of a step.
 
         Parameters
         ----------
@@ -405,47 +438,115 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         >>> round(steady.response_spectrum(1.0, damping=0.0), 4)
         2.0
         """
-        values = np.asarray(reals("periods", periods), dtype=float)
-        shortest, longest = PERIODS
-        if not ((values >= shortest) & (values <= longest)).all():
-            raise Refusal("periods", f"lie in [{shortest:g}, {longest:g}] s", periods)
-        damping = within("damping", damping, 0, MAX_DAMPING)
+        values, damping = _oscillators(periods, damping)
         a = self.acceleration
         rows = [pseudo_acceleration(a, self.step, period, damping) for period in values.ravel().tolist()]
-        return rows[0] if values.ndim == 0 else np.reshape(np.array(rows, dtype=float), values.shape)
+        return _shaped(rows, values)
 
-    def scaled(self, factor: float | None = None, *, pga: float | None = None) -> GroundMotion:
-        """Return the motion times a factor, or scaled to a peak ground acceleration.
+    def average_spectrum(self, periods: Any, damping: float = DAMPING) -> float:
+        """Return Sa_avg: the geometric mean of the pseudo-acceleration over periods.
 
         Parameters
         ----------
-        factor : float
-            Factor. Give exactly one of the two.
-        pga : float
-            Peak ground acceleration, in m/s².
+        periods : array_like
+            Natural periods in s, in [1e-4, 1e4]; one at least.
+        damping : float
+            Damping ratio, in [0, 0.99]. Default: 0.05.
 
         Returns
         -------
-        GroundMotion
-            Motion that shares the samples.
+        float
+            exp(mean of ln Sa) in m/s²; 0 without motion.
 
         Raises
         ------
         TypeError, ValueError
-            If not exactly one is given, or if it is of the wrong type or outside its range. Also if a motion of zeros is
-            scaled to a peak.
+            If a value is of the wrong type or lies outside its range, or if there is no period.
+
+        References
+        ----------
+        Eads, Miranda & Lignos, Earthquake Eng. Struct. Dyn. 44, 2057–2073 (2015).
 
         Examples
         --------
-        >>> GroundMotion([0.0, 2.0], step=0.1).scaled(1.5).pga
-        3.0
+        >>> import rocking as rk
+        >>> motion = rk.example_ground_motion()
+        >>> average, ends = motion.average_spectrum([0.5, 1.0]), motion.response_spectrum([0.5, 1.0])
+        >>> round(float(average**2 / (ends[0] * ends[1])), 12)
+        1.0
         """
-        if exactly_one(factor=factor, pga=pga) == "factor":
-            return evolve(self, factor=self.factor * finite("factor", factor, MAX_FACTOR))  # type: ignore[arg-type]
-        requested = within("pga", pga, 0, MAX_ACCELERATION, "m/s²")  # type: ignore[arg-type]
-        if self.pga == 0.0:
-            raise Refusal("pga", "be 0 for a motion whose acceleration is 0 throughout", requested)
-        return evolve(self, factor=self.factor * (requested / self.pga))
+        values = np.atleast_1d(self.response_spectrum(periods, damping))
+        if not values.size:
+            raise Refusal("periods", "hold one period at least", periods)
+        with np.errstate(divide="ignore"):
+            return float(np.exp(np.log(values).mean()))
+
+    def rotated_spectrum(
+        self, other: GroundMotion, periods: Any, damping: float = DAMPING, *, percentile: float = 50.0
+    ) -> Any:
+        """Return RotD50, or another percentile over all directions of the response of two horizontal components.
+
+        At each period, both components drive a linear oscillator. The largest |u₁ cos φ + u₂ sin φ| is computed for
+        φ = 0, 1, …, 179°, and the percentile is that of these 180 numbers. RotD100 is their maximum. The direction
+        differs from period to period, so no ground motion has this spectrum.
+
+        Parameters
+        ----------
+        other : GroundMotion
+            Other horizontal component of the same station, with the same step and number of samples.
+        periods : float or array_like
+            Natural periods in s, in [1e-4, 1e4].
+        damping : float
+            Damping ratio, in [0, 0.99]. Default: 0.05.
+        percentile : float
+            Percentile over the directions, in [0, 100], linear between two numbers. Default: 50.
+
+        Returns
+        -------
+        float or ndarray
+            Pseudo-acceleration in m/s², in the shape of `periods`.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If a value is of the wrong type or lies outside its range, or if step or number of samples differ.
+
+        References
+        ----------
+        Boore, Bull. Seismol. Soc. Am. 100, 1830–1835 (2010).
+
+        Examples
+        --------
+        >>> east, north = (GroundMotion([0.0, a, -a, 0.0], step=0.1) for a in (3.0, 4.0))
+        >>> total = east.rotated_spectrum(north, 0.5, percentile=100)  # in one direction: a vector of 3 and 4
+        >>> round(total / east.response_spectrum(0.5), 3)
+        1.667
+        """
+        checked_pair(self, other)
+        values, damping = _oscillators(periods, damping)
+        share = within("percentile", percentile, 0.0, 100.0)
+        first, second = self.acceleration, other.acceleration
+        rows = []
+        for period in values.ravel().tolist():
+            both = (oscillation(a, self.step, period, damping) for a in (first, second))
+            rows.append(float(np.percentile(rotated_peaks(*both), share)))
+        return _shaped(rows, values)
+
+    @property
+    def fingerprint(self) -> str:
+        """Digest of step and samples, the same for a motion, its scaled copies and its mirror image."""
+        base = self.normalised(1.0, 1.0)
+        values = np.asarray(base.values, dtype=float)
+        moving = np.flatnonzero(values)
+        sign = np.sign(values[moving[0]]) if moving.size else 1.0
+        return sha256(
+            np.float64(base.step).tobytes() + np.ascontiguousarray(sign * values + 0.0).tobytes()
+        ).hexdigest()
+
+    @property
+    def number(self) -> int:
+        """The first 64 bits of the fingerprint, which number what is drawn at random for the motion."""
+        return int(self.fingerprint[:16], 16)
 
     def normalised(self, acceleration: float, frequency: float) -> PiecewiseLinear:
         """Return the normalised base acceleration, which shares the samples.
@@ -472,48 +573,8 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         unit, rate = within("acceleration", acceleration, *UNITS), within("frequency", frequency, *UNITS)
         return PiecewiseLinear(self._samples, step=rate * self.step, scale=self.factor / unit)
 
-    def reversed(self) -> GroundMotion:
-        """Return the motion in the opposite direction.
-
-        Examples
-        --------
-        >>> GroundMotion([0.0, 2.0], step=0.1).reversed().acceleration.tolist()
-        [-0.0, -2.0]
-        """
-        return evolve(self, factor=-self.factor)
-
-    def clipped(self, start: float = 0.0, end: float | None = None) -> GroundMotion:
-        """Return the samples between two times, both included; no sample is made.
-
-        Parameters
-        ----------
-        start, end : float
-            Times in s, in [0, `duration`]. Default: the whole motion.
-
-        Returns
-        -------
-        GroundMotion
-            Motion that begins with the first sample kept.
-
-        Raises
-        ------
-        TypeError, ValueError
-            If a time is of the wrong type or outside the motion, or if no sample lies between them.
-
-        Examples
-        --------
-        >>> GroundMotion([0.0, 1.0, 2.0, 3.0], step=0.5).clipped(0.5, 1.2).acceleration.tolist()
-        [1.0, 2.0]
-        """
-        first = within("start", start, 0, self.duration, "s")
-        last = within("end", self.duration if end is None else end, 0, self.duration, "s")
-        chosen = slice(math.ceil(first / self.step - 1e-9), math.floor(last / self.step + 1e-9) + 1)
-        kept = self._samples[chosen]
-        if not kept.size:
-            raise Refusal("end", f"leave at least one sample after {{start}} = {first:g} s", end)
-        return evolve(self, acceleration=read_only(kept.copy()), corrected=True)
-
     def __repr__(self) -> str:
         named = ", ".join(filter(None, (self.name, self.component, f"{self._samples.size} samples")))
         treated = "" if self.baseline == "none" else f", {self.baseline} baseline removed"
-        return f"GroundMotion({named}, step {self.step:g} s, PGA {self.pga:.4g} m/s²{treated})"
+        changed = "".join(f", {each}" for each in self.changes)
+        return f"GroundMotion({named}, step {self.step:g} s, PGA {self.pga:.4g} m/s²{treated}{changed})"

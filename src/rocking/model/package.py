@@ -10,6 +10,7 @@ VERSION = __version__ = "0.2.0"
 
 
 EXTRAS = {
+    "excel": ("XLSX files need openpyxl", ("openpyxl",)),
     "explorer": (
         "the explorer needs Bokeh, h5netcdf, h5py and Jinja",
         ("bokeh", "h5netcdf", "h5py", "jinja2"),
@@ -22,7 +23,7 @@ EXTRAS = {
     "store": ("stores need Zarr and numcodecs", ("zarr", "numcodecs")),
 }
 """For each extra of pyproject.toml: what needs its packages, and their modules."""
-FORMATS = {".mp4": "film", ".nc": "netcdf"}
+FORMATS = {".mp4": "film", ".nc": "netcdf", ".xlsx": "excel"}
 """Extras that write files, by the suffix of the file."""
 
 
@@ -110,6 +111,25 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Bulletin of the Seismological Society of America},
   volume = {86}, number = {5}, pages = {1364--1371}, year = {1996},
   annote = {Overturning of a block by a half sine.},
+}
+
+@article{shenton-1996,
+  author = {Shenton, Harry W.},
+  title = {Criteria for initiation of slide, rock, and slide-rock rigid-body modes},
+  journal = {Journal of Engineering Mechanics},
+  publisher = {ASCE},
+  volume = {122}, number = {7}, pages = {690--693}, year = {1996},
+  doi = {10.1061/(ASCE)0733-9399(1996)122:7(690)},
+  annote = {First motion of a block on a rough base.},
+}
+
+@article{newmark-1965,
+  author = {Newmark, Nathan M.},
+  title = {Effects of earthquakes on dams and embankments},
+  journal = {G{\\'e}otechnique},
+  volume = {15}, number = {2}, pages = {139--160}, year = {1965},
+  doi = {10.1680/geot.1965.15.2.139},
+  annote = {Sliding block.},
 }
 
 @article{makris-roussos-2000,

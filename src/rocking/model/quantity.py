@@ -275,6 +275,40 @@ PERIOD = Quantity(
     help="Forcing period T, in units of 1/α.",
     si=SECONDS,
 )
+ANGLE_RATIO = Quantity(
+    "angle_ratio",
+    "θcr2/θcr1",
+    "critical angle of the left side over that of the right one",
+    (0.01, 100.0),
+    label=r"ratio of the critical angles $\theta_\mathrm{cr,2}/\theta_\mathrm{cr,1}$",
+    help="Critical angle of the left side, Θ < 0, over that of the right one. Default: 1.",
+)
+FREQUENCY_RATIO = Quantity(
+    "frequency_ratio",
+    "α2/α1",
+    "frequency parameter of the left side over that of the right one",
+    (0.1, 10.0),
+    label=r"ratio of the frequency parameters $\alpha_2/\alpha_1$",
+    help="Frequency parameter of the left side over that of the right one. Default: 1.",
+)
+LEFT_RESTITUTION = Quantity(
+    "left_restitution",
+    "e21",
+    "coefficient of restitution of impacts that end the motion on the left side",
+    (0.0, 1.0),
+    label=r"coefficient of restitution of the left side $e_{21}$",
+    help="Coefficient of restitution of impacts that end the motion on the left side. Default: that of all impacts.",
+)
+FRICTION = Quantity(
+    "friction",
+    "μ",
+    "coefficient of friction",
+    (1e-3, 10.0),
+    label=r"coefficient of friction $\mu$",
+    help="Coefficient of friction μ between block and base.",
+)
+LEFT_QUANTITIES = ("angle_ratio", "frequency_ratio", "left_restitution")
+"""Names of the quantities of the left side of an unsymmetric block."""
 SYSTEM_QUANTITIES = {
     each.name: each
     for each in (
@@ -288,6 +322,9 @@ SYSTEM_QUANTITIES = {
         ANGLE,
         FREQUENCY,
         PERIOD,
+        ANGLE_RATIO,
+        FREQUENCY_RATIO,
+        LEFT_RESTITUTION,
     )
 }
 """Quantities of a system and an initial state. In a map, the first in this order is the vertical axis."""
@@ -298,8 +335,14 @@ SIZE = Quantity("size", "R", "distance from a corner to the centre of mass", SIZ
 SLENDERNESS = Quantity("slenderness", "θcr", "critical angle", (1e-4, 1.57), "rad", "rad")
 POLARITY = Quantity("polarity", "±", "direction of the ground motion", (-1.0, 1.0))
 LEVEL = Quantity("level", "s", "factor of the ground motion", (1e-9, 1e6))
-RUN_QUANTITIES = {each.name: each for each in (SIZE, SLENDERNESS, RESTITUTION, ANGLE, POLARITY, LEVEL)}
-"""Quantities of runs under ground motions, in the order of the dimensions; records come first."""
+RUN_QUANTITIES = {
+    each.name: each
+    for each in (
+        *(SIZE, SLENDERNESS, RESTITUTION, ANGLE, POLARITY, LEVEL),
+        *(ANGLE_RATIO, FREQUENCY_RATIO, LEFT_RESTITUTION),
+    )
+}
+"""Quantities of runs under ground motions, in the order of the dimensions; records come first. Only unsymmetric blocks have the last."""
 
 
 def _like(si: SI, name: str) -> SI:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import field, frozen
 
 from rocking.model.block import Block
-from rocking.model.ground_motion import MAX_FACTOR, GroundMotion
+from rocking.model.changed_motion import MAX_FACTOR
+from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
 from rocking.model.result import Result, along
 from rocking.model.text import counted, percent, percent_with_ends
@@ -159,7 +161,7 @@ class Fragility(Result):
     """
 
     PLOT = "fragility"
-    LONG = ("record_level", "record_sample_level")
+    LONG = ("record_level", "record_sample_level", "record_polarity_level", "record_polarity_sample_level")
 
     dataset: xr.Dataset = field(repr=False, converter=named_levels)
     block: Block
@@ -212,9 +214,21 @@ def limit_name(limit: float) -> str:
     return "overturning" if math.isinf(limit) else f"|Θ| > {limit:g}"
 
 
+FEW = 10
+"""Number of records below which a report warns."""
+
+
+def few_records(count: int) -> Iterator[str]:
+    """Yield a warning if the records are too few for intervals."""
+    if count < FEW:
+        yield f"{counted(count, 'record')} can hardly say how much records differ: use {FEW} or more"
+
+
 def runs_of(data: Any) -> str:
     """Return the numbers of records, samples, levels and runs of a dataset in words."""
     parts = [counted(data.sizes.get("record", 1), "record")]
+    if "polarity" in data.sizes:
+        parts.append("both polarities")
     if "sample" in data.sizes:
         parts.append(f"{counted(data.sizes['sample'], 'block')} per record")
     parts.append(counted(data.sizes["level"], "level"))
@@ -253,6 +267,20 @@ class IncrementalDynamicAnalysis(Result):
 
     dataset: xr.Dataset = field(repr=False, converter=named_levels)
     block: Block
+
+    def _summary(self) -> xr.Dataset:
+        """Return the dataset with the fractiles, and the fraction of the records that overturn, at each level."""
+        fractile = {"long_name": "fraction of the records that do not exceed the fractile", "units": "1"}
+        columns = {"overturned": (self.overturned, "fraction of the records that overturn the block")}
+        data = self.fractiles().rename("peak_fractile").to_dataset()
+        data.fractile.attrs |= fractile
+        data = data.assign(along("level", columns))
+        return data.merge(self.dataset, combine_attrs="override").assign_attrs(self.dataset.attrs)
+
+    @property
+    def overturned(self) -> np.ndarray:
+        """Fraction of the records that overturn the block at each level, shape (n_levels,)."""
+        return np.isinf(self.dataset.peak.transpose("record", "level").values).mean(axis=0)
 
     def fractiles(self, of: Any = FRACTILES) -> xr.DataArray:
         """Return fractiles of the peak over the records at each level.
@@ -325,7 +353,7 @@ def checked_fractions(name: str, values: Any) -> np.ndarray:
 
 def _level(data: Any, place: int) -> str:
     unit = data.level.attrs.get("units", "1")
-    return f"{data.level.attrs['symbol']} = {float(data.level[place]):.4g}{'' if unit == '1' else ' ' + unit}"
+    return f"{data.level.attrs['symbol']} = {float(data.level[place]):.4g}{'' if unit in ('', '1') else ' ' + unit}"
 
 
 SWITCH_ROW = np.dtype(
@@ -376,7 +404,7 @@ class OverturningSet(Result):
     >>> import rocking as rk
     >>> push = rk.GroundMotion([1.0, 1.0], step=0.4, name="push")
     >>> print(rk.overturning_set(push, rk.Block(2.0, 0.5), np.linspace(0.1, 2, 20), intensity="pga-g"))
-    1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.6 % of the range overturns; lowest found 0.373175 g.
+    1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.2 % of the range overturns; lowest found 0.380873 g.
     Intervals and gaps narrower than 0.1 g may be missed
     """
 
@@ -398,6 +426,10 @@ class OverturningSet(Result):
             "interval_record": (
                 np.repeat(np.arange(len(intervals)), [len(each) for each in intervals]),
                 "number of the record",
+            ),
+            "interval_name": (
+                np.repeat(self.records.names, [len(each) for each in intervals]),
+                "record",
             ),
             "interval_low": (low, "lowest overturning level", unit),
             "interval_high": (high, "highest overturning level", unit),
@@ -454,10 +486,9 @@ class OverturningSet(Result):
 
     @property
     def undecided(self) -> np.ndarray:
-        """Switches that rounding may have made; structured array (n,), empty for a full block, where it is not assessed."""
+        """Switches that rounding may have made; structured array (n,)."""
         result = self.switches
-        assessed = self.dataset.attrs.get("model") != "full"
-        return result[~result["certified"] & assessed]
+        return result[~result["certified"]]
 
     @property
     def lowest(self) -> np.ndarray:
@@ -496,7 +527,7 @@ class OverturningSet(Result):
         >>> push = rk.GroundMotion([1.0, 1.0], step=0.4)
         >>> result = rk.overturning_set(push, rk.Block(2.0, 0.5), [2.0, 5.0, 15.0])
         >>> result.intervals().round(6).tolist()
-        [[3.659594, 15.0]]
+        [[3.735093, 15.0]]
         """
         record = whole("record", record, 0, len(self.records) - 1)
         own = self.switches[self.switches["record"] == record]
@@ -515,7 +546,7 @@ class OverturningSet(Result):
         Returns
         -------
         GroundMotion
-            Scaled motion, reversed if the polarity is -1.
+            Scaled motion, reversed if the polarity is -1. As recorded if the set is of the worse one of both directions.
 
         Raises
         ------
@@ -536,7 +567,7 @@ class OverturningSet(Result):
         factor = measure.factor(level, float(values[record]), alpha, slenderness)
         refuse_if(factor > MAX_FACTOR, "level", f"scale the record by {MAX_FACTOR:g} at most", level)
         ground = self.records[record].scaled(factor)
-        return ground.reversed() if self.dataset.attrs["polarity"] < 0 else ground
+        return ground.reversed() if self.dataset.attrs["polarity"] == -1 else ground
 
     def __str__(self) -> str:
         low, high = self.levels[[0, -1]]
@@ -580,7 +611,7 @@ class Sensitivity(Result):
     (('change',), 10)
     """
 
-    LONG = ("record_level", "record_level_change")
+    LONG = ("record_level", "record_level_change", "record_polarity_level", "record_polarity_level_change")
 
     dataset: xr.Dataset = field(repr=False, converter=named_levels)
     block: Block

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from rocking.model.block import Block, block_attributes
+from rocking.model.block_formulas import with_unit
 from rocking.model.package import VERSION
 from rocking.model.quantity import Quantity
 from rocking.model.tables_and_json import Table, dictionary, in_si, tables_of
@@ -48,6 +49,16 @@ def described(what: str) -> dict[str, object]:
         "source": f"rocking {VERSION}",
         "comment": "All quantities are normalised as in Yim & Lin (1991), Eqs. (1)-(4).",
     }
+
+
+def in_units_of(own: Any, block: Block) -> Block:
+    """Return a block that converts accelerations as the `own` block of a result does, if it has one."""
+    return block if own is None else with_unit(block, own.normalised_by)
+
+
+def _with_tangent(text: str) -> str:
+    """Return a description or a heading with the other unit of acceleration."""
+    return text.replace("g theta_cr", "g tan theta_cr")
 
 
 def html(draw: Callable[[], Any], line: str) -> str:
@@ -98,14 +109,15 @@ class Result:
 
     def _block(self, units: str | None, block: Any) -> Any:
         """Return the block of results in SI units, None for normalised ones; errors as in `to_xarray`."""
-        block = self.block if block is None else instance("block", block, Block)
+        own = self.block
+        block = own if block is None else in_units_of(own, instance("block", block, Block))
         if units is not None and one_of("units", units, UNITS) == "si" and block is None:
             raise Refusal("units", "be 'normalised' for a system without a block", units, BLOCK_FOR_SI)
         return None if units == "normalised" else block
 
     def _with_sizes(self, data: xr.Dataset, block: Any) -> xr.Dataset:
         """Return data with the sizes of the block as attributes, also if the units are normalised."""
-        known = block or self.block
+        known = self.block if block is None else in_units_of(self.block, block)
         return data if known is None else data.assign_attrs(block_attributes(known))
 
     def _dataset(self, data: xr.Dataset, block: Any, chosen: Any) -> xr.Dataset:
@@ -113,7 +125,16 @@ class Result:
         data = self._with_sizes(data, block)
         data = data.copy(deep=False) if chosen is None else in_si(data, chosen, self.QUANTITIES)
         data.attrs = dict(_plain(data.attrs))
+        if chosen is None and self._by_tangent:
+            for each in data.variables.values():
+                if "long_name" in each.attrs:
+                    each.attrs = each.attrs | {"long_name": _with_tangent(each.attrs["long_name"])}
         return data
+
+    @property
+    def _by_tangent(self) -> bool:
+        """Flag: normalised base accelerations are in units of g tan θcr."""
+        return self.block is not None and self.block.normalised_by == "tangent"
 
     def to_xarray(self, *, units: str | None = None, block: Any = None) -> xr.Dataset:
         """Return the result as a dataset, with units.
@@ -206,7 +227,13 @@ class Result:
         ['amplitude [g theta_cr]', 'period [1/alpha]', 'restitution', 'phase [rad]']
         """
         chosen = self._block(units, block)
-        return tables_of(self._data_for(chosen), self.QUANTITIES, chosen)
+        tables = tables_of(self._data_for(chosen), self.QUANTITIES, chosen)
+        if chosen is not None or not self._by_tangent:
+            return tables
+        return {
+            name: {_with_tangent(key): column for key, column in each.items()}
+            for name, each in tables.items()
+        }
 
     def to_dataframe(
         self, table: str | None = None, *, units: str | None = None, block: Any = None

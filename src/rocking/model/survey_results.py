@@ -209,9 +209,10 @@ class SafeBasin(SystemSurvey):
     shares : tuple of Share
         Safe fractions, as counts.
     heteroclinic_amplitude : float
-        Amplitude A*, above which the boundary of the overturning initial states is fractal (exact). NaN with braces.
+        Amplitude A*, above which the boundary of the overturning initial states is fractal (exact). NaN with braces, with the full
+        equation, and for an unsymmetric block, which have no closed form.
     melnikov_amplitude : float
-        Amplitude A_M, the first-order approximation of A* by Melnikov's method. NaN with braces.
+        Amplitude A_M, the first-order approximation of A* by Melnikov's method. NaN as A*.
 
     Examples
     --------
@@ -257,7 +258,7 @@ class OverturningCurve(SystemSurvey):
         - `surviving_above`: fraction of the scanned amplitudes and phases above `lowest` that do not overturn;
         - `overturning_share`, also over `amplitude`: fraction of the phases that overturn;
         - `changes`, also over `phase`: number of changes of the outcome along A;
-        - `heteroclinic_amplitude`: A*.
+        - `heteroclinic_amplitude`: A*; NaN as in `SafeBasin`.
 
     Examples
     --------

@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from attrs import evolve, field, frozen
 
-from rocking.model.block_formulas import Dimensions
+from rocking.model.block_formulas import NORMALISATIONS, Dimensions, with_unit
 from rocking.model.forcing import Forcing, Harmonic
-from rocking.model.quantity import ANGLE, BRACE_ANGLE, CRITICAL_ANGLE, RESTITUTION, VELOCITY
+from rocking.model.quantity import (
+    ANGLE,
+    ANGLE_RATIO,
+    BRACE_ANGLE,
+    CRITICAL_ANGLE,
+    FREQUENCY_RATIO,
+    RESTITUTION,
+    VELOCITY,
+)
+from rocking.model.restitution import Restitution, Scatter, check_certain, check_scatter, checked_rows
 from rocking.model.validation import (
     REMEDIES,
     Refusal,
@@ -19,9 +27,7 @@ from rocking.model.validation import (
     WrongType,
     finite,
     instance,
-    members,
     one_of,
-    pair,
     refuse_if,
     warn_of_value,
     within,
@@ -100,18 +106,59 @@ class Braces:
             warn_of_value(doubt)
 
 
+def _angle_ratio(value: float) -> float:
+    return ANGLE_RATIO.checked(value)
+
+
+def _frequency_ratio(value: float) -> float:
+    return FREQUENCY_RATIO.checked(value)
+
+
+@frozen
+class LeftSide:
+    """Side Θ < 0 of an unsymmetric block, in units of the side Θ > 0, with which `System` describes all other quantities.
+
+    Parameters
+    ----------
+    angle_ratio : float
+        Critical angle of the left side over that of the right one, θcr₂/θcr₁, in [0.01, 100].
+    frequency_ratio : float
+        Frequency parameter of the left side over that of the right one, α₂/α₁, in [0.1, 10].
+    restitution : float
+        Coefficient of restitution e₂₁ of an impact that ends the motion on the left side, in [0, 1].
+
+    Raises
+    ------
+    TypeError
+        If a value is not a real number.
+    ValueError
+        If a value lies outside its range.
+
+    See Also
+    --------
+    Block : Its `left` follows from the offset of the mass centre.
+
+    Examples
+    --------
+    >>> LeftSide(angle_ratio=1.4, frequency_ratio=0.99, restitution=0.9)
+    LeftSide(angle_ratio=1.4, frequency_ratio=0.99, restitution=0.9)
+    """
+
+    angle_ratio: float = field(converter=_angle_ratio)
+    frequency_ratio: float = field(converter=_frequency_ratio)
+    restitution: float = field(converter=_restitution)
+
+
+def _left(value: LeftSide | None) -> LeftSide | None:
+    return None if value is None else instance("left", value, LeftSide)
+
+
 def _braces(value: Braces | None) -> Braces | None:
     return None if value is None else instance("braces", value, Braces)
 
 
 def _restitution_table(value: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
-    """Return rows of speed and coefficient of restitution, after checking them."""
-    allowed = "be rows (speed, coefficient of restitution), the speeds positive and ascending"
-    rows = [pair("restitution_table", row, allowed) for row in members("restitution_table", value, allowed)]
-    checked = tuple((within("speed", speed, 0, MAX_STATE), _restitution(kept)) for speed, kept in rows)
-    speeds = [0.0, *(speed for speed, _ in checked)]
-    refuse_if(not all(one < two for one, two in pairwise(speeds)), "restitution_table", allowed, value)
-    return checked
+    return checked_rows("restitution_table", value)
 
 
 def _critical_angle(value: float | None) -> float | None:
@@ -134,6 +181,10 @@ class System:
     With a critical angle θcr the angle need not be small. On the side σ of Θ, with w = θcr (1 − σΘ),
     Θ'' = −σ sin(w)/θcr − A(τ) cos(w) (Housner 1963). Θ = θ/θcr, and A is in units of g θcr, as for the slender block.
 
+    An unsymmetric block has a `left` side with q = θcr₂/θcr₁ and r = α₂/α₁. All units are those of the right side, Θ > 0. On the
+    left side, Θ'' = r²[Θ + q − A(τ)] for a slender block, and Θ'' = r²[sin(w)/θcr − A(τ) cos(w)] with w = θcr (q + Θ) for the full
+    equation. The impact that ends the motion on a side has the coefficient of restitution of that side.
+
     Parameters
     ----------
     forcing : Harmonic, PiecewiseLinear or Pulse
@@ -150,10 +201,15 @@ class System:
         Coefficient of restitution over the speed before an impact, for the full equation: rows (Θ', e), ascending. Up to the
         first row e changes linearly from `restitution`. Then it is linear between rows, and constant beyond the last.
         Default: none; e is `restitution` at all speeds.
+    restitution_scatter : Scatter, optional
+        Scatter of the coefficient of restitution from impact to impact, for the full equation, such as
+        ``rk.Restitution.constant(0.9).scattered(0.02).scatter``. Default: none.
     block : Block, optional
         Block in SI units of which the system is the normalised form, as `Block.system` sets it. Results are then in SI units by
-        default. A system with another `restitution` has the same block with this value; one with another `critical_angle` has no
-        block. The block has no effect on equality. Default: none.
+        default. A system with another coefficient of restitution has the same block with this value; one with another
+        `critical_angle`, or with other ratios of its `left` side, has no block. The block has no effect on equality. Default: none.
+    left : LeftSide, optional
+        Left side of an unsymmetric block. Default: none, a symmetric block. One that equals the right side counts as none.
 
     Raises
     ------
@@ -174,10 +230,13 @@ class System:
     braces: Braces | None = field(default=None, converter=_braces)
     critical_angle: float | None = field(default=None, converter=_critical_angle)
     restitution_table: tuple[tuple[float, float], ...] = field(default=(), converter=_restitution_table)
+    restitution_scatter: Scatter | None = field(default=None, converter=check_scatter, kw_only=True)
     block: Block | None = field(default=None, converter=_block, kw_only=True, eq=False, repr=False)
+    left: LeftSide | None = field(default=None, converter=_left, kw_only=True)
 
     def __attrs_post_init__(self) -> None:
         """Refuse a table for the slender block, and braces that a full block reaches only when it lies flat."""
+        self._check_left()
         if self.block is not None:
             object.__setattr__(self, "block", self._fitting(self.block))
         if self.critical_angle is None:
@@ -186,14 +245,72 @@ class System:
             refuse_if(
                 bool(self.restitution_table), "restitution_table", allowed, self.restitution_table, remedy
             )
+            scatter = self.restitution_scatter
+            refuse_if(scatter is not None, "restitution_scatter", allowed, Text(str(scatter)), remedy)
         elif self.braces is not None:
             check_below_flat(self.braces.angle, self.critical_angle)
 
+    def _check_left(self) -> None:
+        """Drop a left side that equals the right one; refuse one whose critical angle the full equation does not take."""
+        if self.left == LeftSide(1.0, 1.0, self.restitution):
+            object.__setattr__(self, "left", None)
+        if self.left is None:
+            return
+        allowed, got = "be omitted with braces", Text("both")
+        refuse_if(self.braces is not None, "left", allowed, got, "braces are for a symmetric block")
+        refuse_if(
+            bool(self.restitution_table),
+            "left",
+            "be omitted with {restitution_table}",
+            got,
+            "a table is for a symmetric block",
+        )
+        if self.critical_angle is not None:
+            low, high = (each / self.critical_angle for each in CRITICAL_ANGLE.range)
+            within("angle_ratio", self.left.angle_ratio, low, high)
+
     def _fitting(self, block: Block) -> Block | None:
-        """Return the block with the coefficient of restitution of the system; None if its critical angle is another one."""
-        if self.critical_angle not in (None, block.critical_angle):
+        """Return the block with the restitution and the unit of acceleration of the system.
+
+        None if its critical angles or the ratio of its frequencies are other ones.
+        """
+        own, other = self.left, block.left
+        ratios = [
+            (1.0, 1.0) if each is None else (each.angle_ratio, each.frequency_ratio) for each in (own, other)
+        ]
+        if self.critical_angle not in (None, block.critical_angle) or ratios[0] != ratios[1]:
             return None
-        return block if block.restitution == self.restitution else evolve(block, restitution=self.restitution)
+        if self.critical_angle is not None or isinstance(self.forcing, Harmonic):
+            block = with_unit(block, "angle")
+        left = self.restitution if own is None else own.restitution
+        scatter = None if self.restitution_scatter is None else evolve(self.restitution_scatter, run=0)
+        unit = float(block.radians_per_second(1.0))
+        law = block.law.normalised_rows(unit), block.law.scatter
+        stated = self.restitution, left, self.restitution_table, scatter
+        if (block.restitution, block.left_restitution, *law) == stated:
+            return block
+        rows = tuple((speed * unit, kept) for speed, kept in self.restitution_law)
+        restitution = Restitution(value=None if rows else self.restitution, rows=rows, scatter=scatter)
+        return evolve(block, restitution=restitution, left_restitution=None if own is None else left)
+
+    @property
+    def has_chains(self) -> bool:
+        """Flag: its orbits are chains of events with equations in closed form, as for a slender, symmetric block."""
+        return self.critical_angle is None and self.left is None
+
+    @property
+    def lossless(self) -> bool:
+        """Flag: an impact on the base loses no energy, on either side."""
+        return (
+            self.restitution == 1.0
+            and self.restitution_scatter is None
+            and (self.left is None or self.left.restitution == 1.0)
+        )
+
+    @property
+    def normalised_by(self) -> str:
+        """Unit of the base acceleration: "angle", g θcr, or "tangent", g tan θcr, as `Block.system` chose it."""
+        return "angle" if self.block is None else self.block.normalised_by
 
     @property
     def restitution_law(self) -> tuple[tuple[float, float], ...]:
@@ -209,12 +326,25 @@ class System:
         if self.critical_angle is not None:
             rule = "be None for this analysis, which has a closed form for the slender block alone"
             raise WrongType("critical_angle", rule, self.critical_angle)
+        check_symmetric(self, "this analysis, which has a closed form for it alone")
         return self.periodic
 
     @property
     def lift_off(self) -> float:
-        """Base acceleration above which a block lifts off from rest, in units of g θcr: 1, or tan θcr/θcr for the full equation."""
-        return 1.0 if self.critical_angle is None else math.tan(self.critical_angle) / self.critical_angle
+        """Base acceleration above which a block lifts off from rest, in units of g θcr: 1, or tan θcr/θcr for the full equation.
+
+        For an unsymmetric block it is that of the side on which it lifts off first.
+        """
+        return min(self.lift_offs)
+
+    @property
+    def lift_offs(self) -> tuple[float, float]:
+        """Values of −A and of A above which a block lifts off from rest, to Θ > 0 and to Θ < 0, in units of g θcr."""
+        ratios = (1.0, 1.0 if self.left is None else self.left.angle_ratio)
+        if self.critical_angle is None:
+            return ratios
+        right, left = (math.tan(ratio * self.critical_angle) / self.critical_angle for ratio in ratios)
+        return right, left
 
     @property
     def periodic(self) -> Harmonic:
@@ -230,7 +360,7 @@ class System:
 
 
 def quantities(system: System) -> dict[str, float]:
-    """Return the quantities of a system by name; the critical angle and those of braces only if it has them.
+    """Return the quantities of a system by name; the critical angle and those of braces and a left side only if it has them.
 
     Examples
     --------
@@ -243,13 +373,19 @@ def quantities(system: System) -> dict[str, float]:
         rows["critical_angle"] = system.critical_angle
     if braces is not None:
         rows |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+    if (left := system.left) is not None:
+        rows |= {
+            "angle_ratio": left.angle_ratio,
+            "frequency_ratio": left.frequency_ratio,
+            "left_restitution": left.restitution,
+        }
     return rows
 
 
 def system_of(values: Mapping[str, float]) -> System:
     """Return the system with these quantities, its forcing made from the period, or without one from the frequency.
 
-    It has no braces if their angle is infinite, and is slender if the critical angle is 0 or missing.
+    It has no braces if their angle is infinite, is slender if the critical angle is 0 or missing, and symmetric without ratios.
 
     Examples
     --------
@@ -259,11 +395,15 @@ def system_of(values: Mapping[str, float]) -> System:
     time = "period" if "period" in values else "frequency"
     forcing = Harmonic(values["amplitude"], phase=values["phase"], **{time: values[time]})
     braced = values["brace_angle"] < math.inf
+    left = None
+    if "angle_ratio" in values:
+        left = LeftSide(values["angle_ratio"], values["frequency_ratio"], values["left_restitution"])
     return System(
         forcing,
         values["restitution"],
         Braces(values["brace_angle"], values["brace_restitution"]) if braced else None,
         values.get("critical_angle", 0.0) or None,
+        left=left,
     )
 
 
@@ -314,10 +454,15 @@ def angle_doubt(angle: float, remedy: str | None = None) -> str:
     )
 
 
-def check_constant_restitution(system: System) -> None:
-    """Raise ValueError for a table of the coefficient of restitution, which surveys and diagrams do not take."""
-    allowed = "be omitted for many systems at once"
-    refuse_if(bool(system.restitution_table), "restitution_table", allowed, system.restitution_table)
+def check_symmetric(system: System, what: str) -> None:
+    """Raise ValueError for an unsymmetric block in an analysis, `what`, that needs the mirror symmetry of the equations."""
+    allowed = f"be a symmetric block for {what}"
+    refuse_if(
+        system.left is not None, "system", allowed, Text("one with a {left} side of its own"), UNSYMMETRIC
+    )
+
+
+UNSYMMETRIC = "rk.classify, rk.find_orbits and surveys need no symmetry"
 
 
 def critical_angle_for(model: str, angle: float, width: float) -> float | None:
@@ -326,8 +471,23 @@ def critical_angle_for(model: str, angle: float, width: float) -> float | None:
         return None
     low, high = CRITICAL_ANGLE.range
     allowed = f"give a critical angle atan({{width}}/{{height}}) in [{low}, {high}] with the full equation"
-    refuse_if(not low <= angle <= high, "width", allowed, width)
+    refuse_if(not low <= angle <= high, "width", allowed, width, "the slender {model} takes any angle")
     return angle
+
+
+def normalisation_for(normalised_by: str | None, model: str, *, finite: bool = True) -> str:
+    """Return the unit of the base acceleration of a block in SI, after checking: by default "tangent" where it is allowed.
+
+    It is allowed for the slender block under a base motion of finite length.
+    """
+    slender = finite and model == "slender"
+    if normalised_by is None:
+        return "tangent" if slender else "angle"
+    where = "with the full equation of motion" if finite else "for a harmonic base motion"
+    allowed = f"be 'angle' or omitted {where}"
+    chosen = one_of("normalised_by", normalised_by, NORMALISATIONS)
+    refuse_if(chosen == "tangent" and not slender, "normalised_by", allowed, chosen)
+    return chosen
 
 
 def check_below_flat(brace_angle: float, critical_angle: float) -> None:
@@ -374,7 +534,8 @@ def check_periodic(system: System, start: State | None) -> State:
     TypeError
         If the base motion is not periodic, or as in `check_start`.
     ValueError
-        As in `check_start`.
+        As in `check_start`, or for scatter of the restitution.
     """
     instance("system", system, System).periodic  # noqa: B018 (it refuses)
+    check_certain(system.restitution_scatter)
     return check_start(system, start)

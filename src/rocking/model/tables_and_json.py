@@ -36,6 +36,7 @@ FIXED = (
         "brace_restitution",
     ),
     *("phase", "angle", "velocity"),
+    *("angle_ratio", "frequency_ratio", "left_restitution"),
 )
 """Quantities of a system in the order of the columns of a table."""
 RESULT = "result"
@@ -46,10 +47,15 @@ UNIT = re.compile(
     " (in units of (g |alpha )?theta_cr|in normalised time|in radians per normalised time|in cycles per tau|per tau)"
 )
 """Unit of a normalised quantity in the description of a variable."""
+ULPS = 4
+"""Rounding of an axis, in units of the last place."""
+PER = re.compile(r" ([a-z]+)-(\d)")
+"""Power of a unit below 1 in the notation of the CF conventions, after another unit."""
 SENTENCES = {
     re.compile(
         r"[^;.]* normalised as in Yim & Lin \(1991\), Eqs\. \(1\)-\(4\)([.;])"
     ): r"All quantities are in SI units\1",
+    re.compile(r" Base accelerations are in units of g tan theta_cr\."): "",
     re.compile(r"A peak is in units of the critical angle;"): "All quantities are in SI units;",
     re.compile(r"amplitude cos\(frequency time"): "acceleration_m_per_s2 cos(2 pi frequency_hz time",
 }
@@ -87,6 +93,11 @@ def quantity(name: Hashable, own: Quantities, description: str = "") -> Quantity
 # SI units.
 
 
+def si_of(known: Quantity, name: Hashable, block: Any) -> SI | None:
+    """Return the SI counterpart of a quantity; none of the margin of a block with unequal sides, in units of the side at that time."""
+    return None if name == "margin" and block is not None and block.left is not None else known.si
+
+
 def in_si(data: xr.Dataset, block: Any, own: Quantities) -> xr.Dataset:
     """Return a dataset whose normalised quantities are converted to SI; the key of an attribute then ends with its unit.
 
@@ -95,7 +106,7 @@ def in_si(data: xr.Dataset, block: Any, own: Quantities) -> xr.Dataset:
     import xarray as xr
 
     def converted(name: Hashable, variable: Any) -> Any:
-        si = quantity(name, own, variable.attrs.get("long_name", "")).si
+        si = si_of(quantity(name, own, variable.attrs.get("long_name", "")), name, block)
         if si is None or variable.dtype.kind not in "fiu":
             return variable.variable
         kept = {
@@ -124,7 +135,7 @@ def _comment(normalised: str) -> str:
 
 def _attribute(name: Hashable, value: Any, block: Any, own: Quantities) -> Iterator[tuple[Hashable, Any]]:
     """Yield an attribute; with a block, that of a quantity in SI has the unit in its name."""
-    si = quantity(name, own).si
+    si = si_of(quantity(name, own), name, block)
     if block is not None and name == "comment":
         yield name, _comment(value)
     elif block is None or si is None or isinstance(value, str):
@@ -291,11 +302,32 @@ def headed(
     for name, values in table.items():
         attributes = data[name].attrs if data is not None and name in data else {}
         known = quantity(name, own, attributes.get("long_name", ""))
-        si, converted = _converted(known.si, values, block)
+        si, converted = _converted(si_of(known, name, block), values, block)
         unit = known.unit or attributes.get("units", "1")
-        plain = f"{name} [{unit}]" if unit not in ("", "1") else name
+        bare = name.removesuffix(f"_{unit}").removesuffix(f"_{PER.sub(_written, unit)}")
+        plain = f"{bare} [{unit}]" if unit not in ("", "1") else name
         columns[group.short(name, si.heading if si else plain)] = converted
     return columns
+
+
+def as_typed(name: str, values: np.ndarray) -> np.ndarray:
+    """Return a column of a file; levels that differ from 12 digits by the rounding of their axis alone have these digits.
+
+    Examples
+    --------
+    >>> as_typed("level [g]", np.array([0.7999999999999999, 1 / 3])).tolist(), as_typed("peak", np.array([0.1 + 0.2])).tolist()
+    ([0.8, 0.3333333333333333], [0.30000000000000004])
+    """
+    if not name.startswith("level") or values.dtype.kind != "f":
+        return values
+    short = np.array([float(f"{value:.12g}") for value in values.tolist()])
+    with np.errstate(invalid="ignore"):
+        return np.where(np.abs(short - values) <= ULPS * np.spacing(np.abs(values)), short, values)
+
+
+def _written(power: re.Match[str]) -> str:
+    """Return a power of a unit below 1 as names state it: "_per_s2" of " s-2"."""
+    return f"_per_{power[1]}{power[2].removeprefix('1')}"
 
 
 def _converted(si: SI | None, values: np.ndarray, block: Any) -> tuple[SI | None, np.ndarray]:
@@ -326,7 +358,7 @@ def _keyed_rows(data: xr.Dataset, group: Group, own: Quantities, block: Any) -> 
     keyed = {}
     for name, values in rows_of(data, group, with_fixed=False).items():
         description = data[name].attrs.get("long_name", "") if name in data else ""
-        si, converted = _converted(quantity(name, own, description).si, values, block)
+        si, converted = _converted(si_of(quantity(name, own, description), name, block), values, block)
         keyed[group.short(name, si.key if si else IN_SI_UNITS.get(name, name))] = converted.tolist()
     return [dict(zip(keyed, row, strict=True)) for row in zip(*keyed.values(), strict=True)]
 

@@ -30,6 +30,7 @@ REMEDIES = {
     "Harmonic": "make one: rk.Harmonic(amplitude=2.0, period=1.0)",
     "Braces": "make one: rk.Braces(angle=1.0)",
     "Block": "make one: rk.Block(height=2.0, width=0.5)",
+    "LeftSide": "make one: rk.LeftSide(angle_ratio=1.4, frequency_ratio=0.99, restitution=0.9)",
     "System": "make one: rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), or by rk.Block: "
     "block.system(rk.read_ground_motion(path))",
     "BaseMotion": "read a record by rk.read_ground_motion(path), or make an rk.GroundMotion or rk.Pulse",
@@ -488,6 +489,10 @@ RENAMED = {
 """Arguments of version 0.1 that have another name, by function: what replaces them."""
 
 
+OF_LEFT = ("angle_ratio", "frequency_ratio", "left_restitution")
+OF_LEFT_REMEDY = "it is a quantity of the left side, System(…, left=rk.LeftSide(…)), and is no axis here"
+
+
 def explained(function: Call) -> Call:
     """Return the function with messages for a call that does not fit its signature.
 
@@ -532,6 +537,8 @@ def _of_call(function: Callable[..., Any], args: Sequence[Any], kwargs: Mapping[
 
 def _near(function: str, unknown: str, known: list[str]) -> str:
     """Return what replaces an unknown keyword of a function, or the most similar one; "" if there is none."""
+    if unknown in OF_LEFT:
+        return OF_LEFT_REMEDY
     if (function, unknown) in RENAMED:
         return f"since version 0.2 it is {RENAMED[function, unknown]}"
     near = similar(unknown, known)

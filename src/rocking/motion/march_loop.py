@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.march import event_rows, initial_state
-from rocking.kernels.march import march as kernel
-from rocking.kernels.march import progress as values
-from rocking.kernels.march import tangent as differences
+from rocking.kernels import system as numbers
+from rocking.kernels.motion import march
+from rocking.kernels.motion import observers as event_rows
+from rocking.kernels.motion import tangent as differences
 from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
-from rocking.model.system import NO_BRACES, State, System, check_periodic, quantities
+from rocking.model.restitution import Scatter
+from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import TooManyEvents
 from rocking.model.verdict import Outcome
 
@@ -31,44 +31,45 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
 
     For a base motion of finite length, `cycle_length` is that of the clock: any; by default a number of samples.
     """
-    forcing = system.forcing
-    if system.critical_angle is not None:
-        return _full_parameters(system, system.critical_angle, cycle_length)
+    forcing, block = system.forcing, _block_of(system)
     if isinstance(forcing, Harmonic):
-        return numbers.harmonic_parameters(**NO_BRACES | quantities(system))
-    angle, restitution = (
-        (math.inf, 1.0) if system.braces is None else (system.braces.angle, system.braces.restitution)
-    )
-    block = numbers.BlockParameters(system.restitution, angle, restitution)
+        wave = forcing.amplitude, forcing.frequency, forcing.period, forcing.phase
+        return numbers.harmonic_system(block, *wave)
     if isinstance(forcing, Pulse):
         if forcing.cosine is not None:
-            return numbers.pulse_parameters(**_cosine_of(forcing, cycle_length), block=block)
+            return numbers.pulse_system(block, **_cosine_of(forcing, cycle_length))
         forcing = forcing.samples
     assert isinstance(forcing, PiecewiseLinear)
     length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
-    return numbers.sampled_parameters(tables_for(forcing), forcing.scale, length, *block)
+    return numbers.sampled_system(block, tables_for(forcing), forcing.scale, length)
 
 
-def _full_parameters(
-    system: System, critical_angle: float, cycle_length: float | None
-) -> numbers.FullHarmonicParameters | numbers.FullSampledParameters | numbers.FullPulseParameters:
-    """Return the parameters of the full block."""
-    forcing = system.forcing
+def _block_of(system: System) -> numbers.Block:
     braces = (math.inf, 1.0) if system.braces is None else (system.braces.angle, system.braces.restitution)
-    law = np.array(system.restitution_law).reshape(-1, 2)
+    if system.critical_angle is None:
+        return numbers.slender_block(system.restitution, *braces, left=_left_of(system))
+    rows, unit, block = system.restitution_law, 1.0, system.block
+    if block is not None and block.law.rows:  # with the rounding of surveys, whose speeds are in rad/s
+        rows, unit = block.law.rows, float(block.radians_per_second(1.0))
+    law = np.array(rows).reshape(-1, 2)
     largest = max([system.restitution, *law[:, 1].tolist()])
-    block = numbers.full_block(largest, critical_angle, *braces, law)
-    if isinstance(forcing, Harmonic):
-        return numbers.full_harmonic_parameters(
-            block, forcing.amplitude, forcing.frequency, forcing.period, forcing.phase
-        )
-    if isinstance(forcing, Pulse):
-        if forcing.cosine is not None:
-            return numbers.full_pulse_parameters(**_cosine_of(forcing, cycle_length), block=block)
-        forcing = forcing.samples
-    assert isinstance(forcing, PiecewiseLinear)
-    length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
-    return numbers.full_sampled_parameters(block, tables_for(forcing), forcing.scale, length)
+    scatter, left = scatter_of(system.restitution_scatter), _left_of(system)
+    made = numbers.full_block(largest, system.critical_angle, *braces, law, left=left, scatter=scatter)
+    return made._replace(speed_unit=unit)
+
+
+def _left_of(system: System) -> numbers.LeftSide | None:
+    """Return the left side of an unsymmetric block."""
+    if (left := system.left) is None:
+        return None
+    return numbers.LeftSide(left.angle_ratio, left.frequency_ratio, left.restitution)
+
+
+def scatter_of(scatter: Scatter | None) -> numbers.Scatter:
+    """Return the scatter of the restitution for the kernels."""
+    if scatter is None:
+        return numbers.NO_SCATTER
+    return numbers.Scatter(scatter.deviation, scatter.shape == "uniform", scatter.stream(), 0.0)
 
 
 def _cosine_of(pulse: Pulse, cycle_length: float | None) -> dict[str, Any]:
@@ -106,7 +107,7 @@ def start_march(system: System, start: State) -> tuple[Any, Any]:
     """Return the parameters of a system for the kernels, and the block at its initial state, for `march_on`."""
     check_periodic(system, start)
     p = parameters(system)
-    return p, initial_state.begin_march(p, start.angle, start.velocity)[0]
+    return p, march.begin_march(p, start.angle, start.velocity)[0]
 
 
 def march_on(
@@ -162,27 +163,27 @@ def run(
     section = np.empty((cycles + 1 if record == "section" else 0, 2))
     events = np.empty(4096 if record == "all" else 0, event_rows.EVENT_ROW)
     kept: list[np.ndarray] = []
-    status, recorded, done = kernel.PAUSED, 0, 0
-    while status == kernel.PAUSED:
-        recording = values.Recording(section_time, section[done:], events, want_peak)
-        status, progress, taken, written = kernel.march(p, progress, cycles, recording, tangent)
+    status, recorded, done = march.PAUSED, 0, 0
+    while status == march.PAUSED:
+        recording = march.Recording(section_time, section[done:], events, want_peak)
+        status, progress, taken, written = march.march(p, progress, cycles, recording, tangent)
         done += taken
         kept.append(keep(events[:written]))
         recorded += len(kept[-1])
-        if status == kernel.CROWDED or recorded > MAX_RECORDED:
+        if status == march.CROWDED or recorded > MAX_RECORDED:
             raise TooManyEvents(_crowded(status))
-        if status == kernel.PAUSED and 0 < len(events) < 1_000_000:
+        if status == march.PAUSED and 0 < len(events) < 1_000_000:
             events = np.empty(4 * len(events), event_rows.EVENT_ROW)
-    if record == "section" and section_time == 0.0 and status != kernel.OVERTURNED:
+    if record == "section" and section_time == 0.0 and status != march.OVERTURNED:
         section[done] = state_of(progress)
         done += 1
     return status, progress, section[:done] + 0.0, kept  # no negative zeros
 
 
 def _crowded(status: int) -> str:
-    if status == kernel.CROWDED:
+    if status == march.CROWDED:
         return (
-            f"more than {kernel.MAX_EVENTS:,} events without an end: the block chatters with little energy loss "
+            f"more than {march.MAX_EVENTS:,} events without an end: the block chatters with little energy loss "
             "(reduce restitution)"
         )
     return (
@@ -195,13 +196,13 @@ def section_of(system: System, start: State, cycles: int, phase: float) -> np.nd
     forcing = system.periodic
     time = math.fmod(phase - forcing.phase, 2.0 * math.pi) / forcing.frequency
     p = parameters(system)
-    progress, _ = initial_state.begin_march(p, start.angle, start.velocity)
+    progress, _ = march.begin_march(p, start.angle, start.velocity)
     return run(p, progress, cycles, time % forcing.period, "section", want_peak=False)[2]
 
 
 def is_lossless(system: System) -> bool:
     """Return whether the free motion after the base motion may never end: without losses at the base or at a brace."""
-    return system.restitution == 1.0 or (system.braces is not None and system.braces.restitution == 1.0)
+    return system.lossless or (system.braces is not None and system.braces.restitution == 1.0)
 
 
 def state_of(progress: Any) -> tuple[float, float]:
@@ -212,4 +213,4 @@ def state_of(progress: Any) -> tuple[float, float]:
 
 def outcome_of(status: int) -> Outcome:
     """Return the outcome that corresponds to the final status of a march."""
-    return {kernel.OVERTURNED: Outcome.OVERTURNED, kernel.STILL: Outcome.AT_REST}.get(status, Outcome.BOUNDED)
+    return {march.OVERTURNED: Outcome.OVERTURNED, march.STILL: Outcome.AT_REST}.get(status, Outcome.BOUNDED)

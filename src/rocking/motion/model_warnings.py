@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rocking.model.block import Block
-from rocking.model.block_formulas import GRAVITY
+from rocking.model.block_formulas import GRAVITY, acceleration_unit_g
 
 MAX_HEIGHT = 30.0
 """Height in m above which the size of a block was possibly not given in metres."""
@@ -23,6 +23,7 @@ def block_warnings(
     restitution: float = 1.0,
     angle: float | None = None,
     *,
+    left_restitution: float | None = None,
     full: bool = False,
 ) -> Iterator[str]:
     """Yield one sentence for each assumption that does not hold for a block at the given amplitudes.
@@ -37,6 +38,9 @@ def block_warnings(
         Smallest coefficient of restitution in use; 1 without impacts. Default: 1.
     angle : float, optional
         Largest |θ| in radians. Default: θcr.
+    left_restitution : float, optional
+        Smallest coefficient of restitution of impacts from the side θ < 0; `restitution` is then that of the others. Default:
+        `restitution`.
     full : bool
         Flag: the equation of motion is the full one, which needs no slender block. Default: False.
 
@@ -47,9 +51,12 @@ def block_warnings(
     """
     yield from height_warnings(block.height)
     if not full:
-        yield from proportion_warnings(block.critical_angle, block.critical_angle if angle is None else angle)
-        yield from _lifting(block, np.atleast_1d(amplitudes))
-    yield from impact_warnings(block, restitution)
+        right, left = block.critical_angles
+        reached = max(right, left) if angle is None else angle
+        yield from proportion_warnings(right, reached, block.normalised_by, left)
+        if block.normalised_by == "angle":
+            yield from _lifting(block, np.atleast_1d(amplitudes))
+    yield from impact_warnings(block, restitution, left_restitution)
 
 
 def height_warnings(height: float) -> Iterator[str]:
@@ -58,21 +65,38 @@ def height_warnings(height: float) -> Iterator[str]:
         yield f"height {height:.4g} m is unusual: sizes are in metres"
 
 
-def impact_warnings(block: Block, restitution: float) -> Iterator[str]:
-    """Yield a warning if the smallest coefficient of restitution in use is impossible for a block that turns about its edges."""
-    if restitution < block.housner_restitution * (1 - 1e-12):
-        yield (
-            f"restitution {restitution:.4g} is less than Housner's {block.housner_restitution:.4g}: the impulse at an "
-            "impact would have to act outside the bottom face of the block"
-        )
+def impact_warnings(block: Block, restitution: float, left: float | None = None) -> Iterator[str]:
+    """Yield a warning if the smallest coefficient of restitution in use is impossible for a block that turns about its edges.
+
+    Of a block with unequal sides, that of the impacts from each side is compared with its own Housner value.
+    """
+    ends = restitution, restitution if left is None else left
+    sides = [*zip(ends, block.housner_restitutions, (" after θ > 0", " after θ < 0"), strict=True)]
+    if block.left is None:
+        sides = [(min(ends), block.housner_restitution, "")]
+    for used, least, where in sides:
+        if used < least * (1 - 1e-12):
+            yield (
+                f"restitution {used:.4g}{where} is less than Housner's {least:.4g}: the impulse at an "
+                "impact would have to act outside the bottom face of the block"
+            )
 
 
-def slender_errors(critical_angle: float, angle: float) -> tuple[float, float]:
-    """Return the largest δ/sin δ − 1 and 1/cos δ − 1, δ = θcr − |θ|, for |θ| up to `angle`; infinite beyond δ = −90°."""
-    worst = max(critical_angle, angle - critical_angle)
+def slender_errors(
+    critical_angle: float, angle: float, normalised_by: str = "angle", left_angle: float | None = None
+) -> tuple[float, float]:
+    """Return the largest δ/sin δ − 1 and |u/cos δ − 1|, δ = θcr − |θ|, for |θ| up to `angle`; infinite beyond δ = −90°.
+
+    u is 1 if the base acceleration is normalised by the angle, and θcr/tan θcr if it is normalised by the tangent. The critical angle
+    of side 2, if it differs, is `left_angle`; its u is that of side 1.
+    """
+    sides = critical_angle, critical_angle if left_angle is None else left_angle
+    worst, least = max(*sides, angle - min(sides)), max(min(sides) - angle, 0.0)
     if worst >= math.pi / 2:
         return math.inf, math.inf
-    return worst / math.sin(worst) - 1, 1 / math.cos(worst) - 1
+    unit = critical_angle / acceleration_unit_g(critical_angle, normalised_by)
+    moment, push = worst / math.sin(worst) - 1, unit / math.cos(worst) - 1
+    return moment, push if normalised_by == "angle" else max(push, 1 - unit / math.cos(least))
 
 
 def degrees_too(angle: float, digits: int = 3) -> str:
@@ -80,20 +104,29 @@ def degrees_too(angle: float, digits: int = 3) -> str:
     return f"{angle:.{digits}g} rad = {math.degrees(angle):.{digits}g}°"
 
 
-def proportion_warnings(critical_angle: float, angle: float) -> Iterator[str]:
-    """Yield a warning for a block that is not slender, with the errors of the slender-block model for |θ| up to `angle`."""
-    moment, push = slender_errors(critical_angle, angle)
+def proportion_warnings(
+    critical_angle: float, angle: float, normalised_by: str = "angle", left_angle: float | None = None
+) -> Iterator[str]:
+    """Yield a warning for a block that is not slender, with the errors of `slender_errors`."""
+    moment, push = slender_errors(critical_angle, angle, normalised_by, left_angle)
     if max(moment, push) <= SLENDER_ERROR:
         return
-    how = f"the restoring moment is overestimated by up to {moment:.1%}, that of the base acceleration by up to {push:.1%}"
+    how = f"the restoring moment is overestimated by up to {moment:.1%}, that of the base acceleration {off(normalised_by)} {push:.1%}"
     if push == math.inf:
         how = "the slender-block model does not apply beyond 90° from the balance point"
-    yield f"outside the slender range, θcr = {degrees_too(critical_angle)} and |θ| up to {degrees_too(angle)}: {how}"
+    widest = max(critical_angle, left_angle or 0.0)
+    yield f"outside the slender range, θcr = {degrees_too(widest)} and |θ| up to {degrees_too(angle)}: {how}"
+
+
+def off(normalised_by: str) -> str:
+    """Return the words before the error of the moment of the base acceleration, which the tangent also underestimates."""
+    return "by up to" if normalised_by == "angle" else "is wrong by up to"
 
 
 def _lifting(block: Block, amplitudes: np.ndarray) -> Iterator[str]:
     """Yield a warning for amplitudes that lift off the slender model, a_x > g θcr, but not the real block, a_x ≤ g B/H."""
-    model, truth = block.critical_angle, math.tan(block.critical_angle)
+    model = min(block.critical_angles)
+    truth, amplitudes = math.tan(model), amplitudes * (block.critical_angle / model)
     between = amplitudes[(amplitudes > 1.0) & (amplitudes * model <= truth)]
     if not between.size:
         return

@@ -10,14 +10,15 @@ from attrs import frozen
 
 from rocking.model.block import Block
 from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
-from rocking.model.quantity import ANGLE, VELOCITY
+from rocking.model.quantity import ANGLE, FRICTION
+from rocking.model.restitution import system_attributes
 from rocking.model.result import Result, described
 from rocking.model.system import quantities
 from rocking.model.text import counted
 from rocking.model.validation import instance, refuse_if, within
-from rocking.model.verdict import Outcome, Overturning
+from rocking.model.verdict import Overturning
 from rocking.motion.trajectory import Trajectory
-from rocking.motion.validity import Validity, validity
+from rocking.motion.validity import Validity, compared, validity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,9 +51,14 @@ def end_shown(motion: Trajectory) -> float:
 
 
 def fallen(motion: Trajectory) -> float:
-    """Return the value of |Θ| up to which a fall is shown: 3, or where a block with the full equation lies flat."""
-    critical_angle = motion.system.critical_angle
-    return FALLEN if critical_angle is None else 0.5 * math.pi / critical_angle
+    """Return the value of |Θ| up to which a fall is shown: 3, or where a block with the full equation lies flat.
+
+    It is three times the larger critical angle of an unsymmetric slender block.
+    """
+    critical_angle, left = motion.system.critical_angle, motion.system.left
+    if critical_angle is not None:
+        return 0.5 * math.pi / critical_angle
+    return FALLEN if left is None else FALLEN * max(left.angle_ratio, 1.0)
 
 
 def sample_step(motion: Trajectory) -> float:
@@ -90,6 +96,20 @@ def time_of_fall(motion: Trajectory, overturning: Overturning, angle: float) -> 
 
 
 MAX_STEPS = 100_000_000
+
+
+def margin_speed(motion: Trajectory, block: Block) -> float:
+    """Return the margin in rad/s; NaN for a block with unequal sides whose events were not recorded.
+
+    The unit of the margin is αθcr of the side on which the block is at that time.
+    """
+    if block.left is None:
+        return float(block.radians_per_second(motion.margin))
+    if math.isnan(motion.margin) or motion.record != "all":
+        return math.nan
+    side = 0 if motion._side_at(motion.margin_time) > 0 else 1
+    return motion.margin * block.critical_angles[side] * block.frequency_parameters[side]
+
 
 Variables = dict[str, tuple[str, Any, dict[str, str]]]
 
@@ -165,20 +185,27 @@ def _section(motion: Trajectory) -> tuple[Variables, Variables]:
 def _attributes(motion: Trajectory) -> dict[str, Any]:
     """Return the attributes of the dataset: system, initial state and results."""
     periodic = has_cycles(motion)
-    base = (
-        "The base acceleration is amplitude cos(frequency time + phase). "
-        "Cycles are counted from 0 in event_cycle and overturning_cycle."
-        if periodic
-        else "The base acceleration is linear between samples, and 0 before the first and after the last."
-    )
+    forcing = motion.system.forcing
+    if periodic:
+        base = (
+            "The base acceleration is amplitude cos(frequency time + phase). "
+            "Cycles are counted from 0 in event_cycle and overturning_cycle."
+        )
+    elif isinstance(forcing, Pulse) and forcing.cosine is not None:
+        base = "The base acceleration is a piece of a cosine, and 0 after the end of the pulse."
+    else:
+        base = "The base acceleration is linear between samples, and 0 before the first and after the last."
     full = (
         "" if motion.system.critical_angle is None else " The equation of motion is that of the full block."
     )
     normalised = described("Motion")
+    by_tangent = motion.system.normalised_by == "tangent"
+    tangent = " Base accelerations are in units of g tan theta_cr." if by_tangent else ""
     attributes = normalised | {
-        "comment": f"{normalised['comment']} {base}{full}",
-        **({"pulse": motion.system.forcing.kind} if isinstance(motion.system.forcing, Pulse) else {}),
+        "comment": f"{normalised['comment']}{tangent} {base}{full}",
+        **({"pulse": forcing.kind} if isinstance(forcing, Pulse) else {}),
         **quantities(motion.system),
+        **system_attributes(motion.system),
         "model": "slender" if motion.system.critical_angle is None else "full",
         "start_angle": motion.start.angle,
         "start_velocity": motion.start.velocity,
@@ -235,15 +262,19 @@ class Motion(Trajectory, Result):
 
         K₊ = v − 1 − σR(τ), with the speed v and the side σ afterwards. R(τ) is the integral of e^(τ−x) a(x) over all later x.
 
-        The block leaves for good if K₊ > 0, unless it returns before. NaN if the block never moves, for a harmonic base motion,
-        between braces, and for a block with a critical angle.
+        Of a block with a critical angle it is K = v − v_s. The speed v_s is that of the one motion on this side, continued through
+        Θ = 0, which stays bounded for ever. K tends to K₊ for small critical angles.
+
+        The block leaves for good if it is positive, unless it returns before. NaN if the block never moves, for a harmonic base
+        motion, and between braces. Under more than 1 g it is possible that no motion stays bounded, or more than one. Lift-offs and
+        impacts of which that is so do not count, and the margin is NaN if all are.
     margin_time : float
         Time τ of that lift-off or impact.
     certified : bool
         False if the outcome is undecided in double precision: the accumulated rounding error exceeds |K₊| somewhere, or the
-        clearance of a minimum of |Θ| between two impacts, or a lower bound of it. The error is an estimate from the rounding of
-        each arc and its growth. True for a harmonic base motion, and between braces, which prevent overturning. False for a block
-        with a critical angle under a base motion of finite length: its rounding errors are not assessed.
+        clearance of a minimum of |Θ| between two impacts, or a lower bound of it. Of a block with a critical angle the error must
+        be small at the end of each arc, instead of |K₊| at its start. The error is an estimate from the rounding of each arc and
+        its growth. True for a harmonic base motion, and between braces, which prevent overturning.
     final : State
         Θ and Θ' at the end, just after an event if there is one.
     duration : float
@@ -324,7 +355,7 @@ class Motion(Trajectory, Result):
         chosen = self._block(units, block)
         return self._dataset(self._data_for(chosen, step), block, chosen)
 
-    def validity(self, block: Block, *, full: bool = False) -> Validity:
+    def validity(self, block: Block, *, full: bool = False, friction: float | None = None) -> Validity:
         """Assess whether the model applies to this motion of a real block: friction, base reaction and slenderness.
 
         Parameters
@@ -334,6 +365,9 @@ class Motion(Trajectory, Result):
         full : bool
             Also follow the full equation of motion under the same base motion, and compare the largest angle and the outcome.
             Default: False.
+        friction : float, optional
+            Coefficient of friction of the base, in [0.001, 10]. A motion that needs more is refused as a verdict on the block:
+            `Validity.slides_from` is the first time at which it does. Default: unlimited.
 
         Returns
         -------
@@ -343,9 +377,10 @@ class Motion(Trajectory, Result):
         Raises
         ------
         TypeError
-            If `block` is not a Block.
+            If `block` is not a Block, or `friction` is not a real number.
         ValueError
-            If the motion was not recorded with record="all".
+            If the motion was not recorded with record="all", if `block` has other sides than the block of the motion, or if
+            `friction` lies outside its range.
 
         Examples
         --------
@@ -354,19 +389,16 @@ class Motion(Trajectory, Result):
         >>> motion = rk.simulate(block.system(acceleration=4.0, frequency_hz=1.2), cycles=10)
         >>> motion.validity(block).friction > 0.2
         True
+        >>> print(motion.validity(block, friction=0.25).refusal)
+        slides from t = ... s (motion): no rocking verdict with a friction of 0.25
         """
-        return validity(self, block, full=instance("full", full, bool))
+        available = None if friction is None else FRICTION.checked(friction)
+        return validity(self, block, full=instance("full", full, bool), friction=available)
 
     @property
     def doubt(self) -> str:
         """Reason why the outcome is not certified; empty if it is."""
-        if self.certified:
-            return ""
-        if self.system.critical_angle is None:
-            return "undecided in double precision"
-        if self.outcome is Outcome.BOUNDED:
-            return "rounding errors are not assessed"
-        return "proved for the computed motion; its rounding errors are not assessed"
+        return "" if self.certified else "undecided in double precision"
 
     def __str__(self) -> str:
         counts, block = [counted(self.impacts, "impact")], self.block
@@ -380,10 +412,18 @@ class Motion(Trajectory, Result):
         else:
             since = ": overturning is certain" if self.certified else ""
             how = f"overturned{since} from {self._time(self.overturning.time)}"
-        _, velocity, unit = VELOCITY.printed(block)
-        margin = "" if math.isnan(self.margin) else f", margin {velocity(self.margin):.4g}{unit}"
+        margin = "" if math.isnan(self.margin) else f", margin {self._margin()}"
         doubt = f" ({self.doubt})" if self.doubt else ""
-        return f"{how}{doubt}; {', '.join(counts)}{margin}"
+        name, outcome = compared(self)
+        other = f"; {name}: {outcome}" if name else ""
+        return f"{how}{doubt}; {', '.join(counts)}{margin}{other}"
+
+    def _margin(self) -> str:
+        """Return the margin as text; in °/s if the block is known."""
+        speed = math.nan if self.block is None else margin_speed(self, self.block)
+        if not math.isnan(speed):
+            return f"{math.degrees(speed):.4g}°/s"
+        return f"{self.margin:.4g}" + (" αθcr of its side" if self.system.left else "")
 
     def _time(self, time: float) -> str:
         """Return a time as text; in s if the block is known."""

@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.march import ending as ends
-from rocking.kernels.march import event_rows, finite_runs, initial_state
-from rocking.kernels.march import march as kernel
+from rocking.kernels import system as numbers
+from rocking.kernels.motion import finite_motion as ends
+from rocking.kernels.motion import finite_motion as finite_runs
+from rocking.kernels.motion import march
+from rocking.kernels.motion import observers as event_rows
 from rocking.model.forcing import Harmonic
 from rocking.model.system import State, System, check_periodic, check_start
 from rocking.model.validation import one_of, refuse_if, whole, within
@@ -23,7 +24,7 @@ from rocking.motion.trajectory import events_of
 MAX_CYCLES = 1_000_000_000
 MAX_SECTION_CYCLES = 100_000_000
 DURATIONS = (1e-9, 1e9)
-NO_ENDING = ends.Ending(kernel.DONE, 0, 0, 0, 0.0, math.nan, math.nan, True)
+NO_ENDING = ends.Ending(march.DONE, 0, 0, 0, 0.0, math.nan, math.nan, True)
 """For a harmonic base motion, which has no end."""
 NO_CYCLES = "be omitted for a base motion of finite length, which has no cycles"
 
@@ -104,14 +105,14 @@ def simulate(
     if not isinstance(system.forcing, Harmonic):
         until = math.inf if duration is None else duration
         ending = finite_runs.run_to_end(p, start.angle, start.velocity, until)
-        if ending.status == kernel.OVERTURNED and duration is None:
-            count = kernel.OPEN
-    progress, hit = initial_state.begin_march(p, start.angle, start.velocity)
+        if ending.status == march.OVERTURNED and duration is None:
+            count = march.OPEN
+    progress, hit = march.begin_march(p, start.angle, start.velocity)
     first = _first_rows(progress, start, hit)
     status, progress, section, rows = run(p, progress, count, 0.0, record, want_peak=True)
     overturning = _overturning(status, progress, p)
     end = progress.cycle * p.clock.cycle_length
-    if count == kernel.OPEN:
+    if count == march.OPEN:
         end = max(end + progress.arc.start, system.forcing.span)
     return Motion(
         system=system,
@@ -148,7 +149,7 @@ def _span(
     refuse_if(cycles is not None, "cycles", NO_CYCLES, cycles)
     refuse_if(record == "section", "record", "be 'all' or 'none', because a section needs a period", record)
     if duration is None and not is_lossless(system):
-        return kernel.OPEN, None
+        return march.OPEN, None
     end = forcing.span if duration is None else within("duration", duration, *DURATIONS)
     count = max(1, math.ceil(end / (numbers.CYCLE * forcing.time_scale)))
     return count, end / count
@@ -180,11 +181,11 @@ def kept_events(
 
 def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:
     rows = np.empty(2, event_rows.EVENT_ROW)
-    return rows[: initial_state.note_start(rows, progress, hit, start.velocity)]
+    return rows[: march.note_start(rows, progress, hit, start.velocity)]
 
 
 def _overturning(status: int, progress: Any, p: numbers.SystemParameters) -> Overturning | None:
-    if status != kernel.OVERTURNED:
+    if status != march.OVERTURNED:
         return None
     length = p.clock.cycle_length
     time = progress.cycle * length + progress.no_return

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.kernels import event_kinds as kernel
-from rocking.kernels.march import resample
+from rocking.kernels.motion import observers as resample
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.forcing import Harmonic
 from rocking.model.quantity import PHASE
@@ -209,6 +209,13 @@ class Trajectory(ReadOnlyArrays):
                 return self._section_rows
             phase = self.system.periodic.phase
         return section_of(self.system, self.start, self.cycles, PHASE.checked(phase))
+
+    def _side_at(self, event: float) -> int:
+        """Return the side of the arc that begins with the event at a time: 1 or −1; ValueError if no events were recorded."""
+        rows = self._rows()
+        rows = rows[rows["mode"] == kernel.FLIGHT]
+        begins = absolute(rows, self._cycle_length, self.duration)
+        return int(rows["side"][np.argmin(np.abs(begins - event))])
 
     @cached_property
     def _numbers(self) -> Any:

@@ -14,16 +14,19 @@ from attrs import evolve, frozen
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from rocking.kernels.march import finite_runs, initial_state
-from rocking.kernels.march import march as kernel
+from rocking.kernels import system as numbers
+from rocking.kernels.motion import finite_motion as finite_runs
+from rocking.kernels.motion import march
 from rocking.model.block import Block
-from rocking.model.forcing import Harmonic
-from rocking.model.validation import instance, refuse_if
+from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
+from rocking.model.result import in_units_of
+from rocking.model.validation import Refusal, Text, instance, refuse_if
 from rocking.model.verdict import Outcome
 from rocking.motion.march_loop import is_lossless, outcome_of, parameters, run
-from rocking.motion.model_warnings import block_warnings, degrees_too, slender_errors
+from rocking.motion.model_warnings import block_warnings, degrees_too, off, slender_errors
 
 if TYPE_CHECKING:
+    from rocking.model.system import System
     from rocking.motion.trajectory import Trajectory
 
 
@@ -100,21 +103,75 @@ def global_minimum(quotient: Quotient, arcs: Arcs, scale: float) -> Extreme:
     return best
 
 
+def first_time(quotient: Quotient, level: float, arcs: Arcs, scale: float) -> float:
+    """Return the first time at which a quotient is below a level, or its denominator is not positive; infinite if there is none.
+
+    Then a numerator minus the level times the denominator is negative. Cells without a negative value by the bound of
+    `global_minimum` are left out, and so are those after the first one with a negative value. The others are divided in two.
+    """
+    for batch in _cells(arcs, scale):
+        cells = batch
+        for halving in range(HALVINGS + 1):
+            times = _nodes(cells)
+            tops, bottom = quotient(times.ravel(), np.repeat(cells.sides, NODES.size))
+            over, allowed = _over(tops, level, bottom, times.shape)
+            below: NDArray[np.bool_] = np.any(over < -allowed[..., None], axis=0)
+            open_ = _can_be_negative(over, allowed)
+            fallen = np.flatnonzero(np.any(below, axis=1))
+            if fallen.size:
+                open_[fallen[0] + 1 :] = False
+            if not open_.any():
+                break
+            if halving == HALVINGS and fallen.size:
+                which = fallen[0]
+                return _crossing(
+                    quotient, level, times[which], int(np.argmax(below[which])), cells.sides[which]
+                )
+            cells = cells.where(open_).divided(np.full(np.count_nonzero(open_), 2))
+    return math.inf
+
+
+def _crossing(quotient: Quotient, level: float, nodes: Array, node: int, side: float) -> float:
+    """Return the time at which a quotient falls below a level, before a node where it is below."""
+    from scipy.optimize import brentq
+
+    def least(time: float) -> float:
+        tops, bottom = quotient(np.array([time]), np.array([side]))
+        return float((tops - level * bottom).min())
+
+    before = float(nodes[max(node - 1, 0)])
+    return float(brentq(least, before, float(nodes[node]), xtol=1e-300)) if least(before) > 0 else before
+
+
 def _improved(quotient: Quotient, cells: Arcs, best: Extreme) -> tuple[Extreme, NDArray[np.bool_]]:
     """Return the smallest value at the nodes of all cells and before, and the cells that can hold a smaller one."""
-    middles, halves = (cells.starts + cells.ends) / 2, (cells.ends - cells.starts) / 2
-    times = np.clip(middles[:, None] + halves[:, None] * NODES, cells.starts[:, None], cells.ends[:, None])
+    times = _nodes(cells)
     tops, bottom = quotient(times.ravel(), np.repeat(cells.sides, NODES.size))
     values = np.divide(tops.min(axis=0), bottom, out=np.full(bottom.size, -math.inf), where=bottom > 0)
     lowest = int(np.argmin(values))
     best = min(best, Extreme(float(values[lowest]), float(times.flat[lowest])))
     if best.value == -math.inf:
         return best, np.zeros(cells.starts.size, bool)
-    shape = (len(tops), *times.shape)
-    over = (tops - best.value * bottom).reshape(shape)
-    size = (np.abs(tops) + abs(best.value) * bottom).reshape(shape).max(axis=-1)
+    return best, _can_be_negative(*_over(tops, best.value, bottom, times.shape))
+
+
+def _nodes(cells: Arcs) -> Array:
+    """Return the times of the nodes of all cells."""
+    middles, halves = (cells.starts + cells.ends) / 2, (cells.ends - cells.starts) / 2
+    return np.clip(middles[:, None] + halves[:, None] * NODES, cells.starts[:, None], cells.ends[:, None])
+
+
+def _over(tops: Array, level: float, bottom: Array, shape: tuple[int, ...]) -> tuple[Array, Array]:
+    """Return numerators minus the level times the denominator at the nodes of each cell, and their rounding error in each."""
+    over = (tops - level * bottom).reshape(len(tops), *shape)
+    size = (np.abs(tops) + abs(level) * np.abs(bottom)).reshape(over.shape).max(axis=-1)
+    return over, TOLERANCE * size
+
+
+def _can_be_negative(over: Array, allowed: Array) -> NDArray[np.bool_]:
+    """Return the cells whose Chebyshev series admit a value below the rounding error between the nodes."""
     least = over.min(axis=-1) - np.abs(over @ TO_COEFFICIENTS) @ BELOW_CHORD
-    return best, (least < -TOLERANCE * size).any(axis=0)
+    return (least < -allowed).any(axis=0)
 
 
 def _cells(arcs: Arcs, scale: float) -> Iterator[Arcs]:
@@ -129,6 +186,8 @@ def _cells(arcs: Arcs, scale: float) -> Iterator[Arcs]:
 
 ORDINARY_FRICTION = 0.5
 """Coefficient of friction that dry stone, concrete and steel usually reach. A larger requirement gives a warning."""
+LEAST_LACK = 1e-10
+"""Relative lack of friction from which a block slides, so that the least coefficient, with its rounding error, is enough."""
 MIN_ARC = 1e-12
 """Shortest arc evaluated, in τ. On shorter arcs of a chatter, the reaction equals that on the longer ones before."""
 INWARDS = 8 * 2.0**-52
@@ -159,13 +218,23 @@ class Validity:
         Largest |θ| up to `until`, and θcr, in radians.
     moment_error, forcing_error : float
         Largest relative overestimate of the restoring moment, δ/sin δ − 1 with δ = θcr − |θ|, and of the moment of the
-        base acceleration, 1/cos δ − 1. Infinite beyond δ = −90°. Both are 0 for the full equation of motion.
+        base acceleration, 1/cos δ − 1. With a base acceleration in units of g tan θcr the latter is the largest relative error,
+        |θcr/(tan θcr cos δ) − 1|. Infinite beyond δ = −90°. Both are 0 for the full equation of motion.
     time_unit : float
         1/α, in seconds.
+    normalised_by : str
+        Unit of the base acceleration of the motion: "angle", g θcr, or "tangent", g tan θcr.
     full_angle : float or None
         With ``full=True``: largest |θ| of the full block under the same base motion, in radians; infinite if it overturns.
     full_outcome : Outcome or None
         With ``full=True``: outcome of its motion.
+    available_friction : float or None
+        Coefficient of friction that the base has, if it was given.
+    slides_from : float or None
+        First time, in τ, at which the motion needs more than this friction. From then on the block slides, and the motion is no
+        verdict on it. None if it never needs more, or if `available_friction` was not given.
+    slides_in : str or None
+        Phase of this time, as in `friction_source`.
     warnings : tuple of str
         One sentence for each assumption that does not hold, and for each quantity that the motion does not determine.
 
@@ -204,6 +273,10 @@ class Validity:
     time_unit: float
     full_angle: float | None = None
     full_outcome: Outcome | None = None
+    normalised_by: str = "angle"
+    available_friction: float | None = None
+    slides_from: float | None = None
+    slides_in: str | None = None
     warnings: tuple[str, ...] = ()
 
     def __str__(self) -> str:
@@ -221,9 +294,10 @@ class Validity:
         elif self.forcing_error < math.inf:
             slender = (
                 f"overestimates the restoring moment by up to {self.moment_error:.2%}, "
-                f"that of the base acceleration by up to {self.forcing_error:.2%}"
+                f"that of the base acceleration {off(self.normalised_by)} {self.forcing_error:.2%}"
             )
-        lines = (
+        lines = [self.refusal] if self.refusal else []
+        lines += (
             [f"assessed up to τ = {self.until:.6g}, where overturning is proved"] if self.overturned else []
         )
         lines += [
@@ -237,6 +311,14 @@ class Validity:
         if self.full_angle is not None:
             lines.append(f"full equation of motion: {self._compared(self.full_angle)}")
         return "\n".join((*lines, *(f"warning: {warning}" for warning in self.warnings)))
+
+    @property
+    def refusal(self) -> str:
+        """Sentence that refuses the motion as a verdict because the block slides; empty if the friction suffices, or is not given."""
+        if self.slides_from is None:
+            return ""
+        time = f"{self.slides_from * self.time_unit:.6g}"
+        return f"slides from t = {time} s ({self.slides_in}): no rocking verdict with a friction of {self.available_friction:g}"
 
     def _compared(self, angle: float) -> str:
         """Return the outcome of the full block, and how its largest angle differs, in words."""
@@ -254,7 +336,9 @@ class Validity:
         return "" if time is None else f"t = {time * self.time_unit:.4g} s, τ = {time:.6g}"
 
 
-def validity(motion: Trajectory, block: Block, *, full: bool = False) -> Validity:
+def validity(
+    motion: Trajectory, block: Block, *, full: bool = False, friction: float | None = None
+) -> Validity:
     """Assess whether `block` can perform `motion` as the model assumes; with ``full``, compare with the full equation of motion.
 
     The extremes are those of the exact motion, to a relative error of 1e-12. Arcs are divided until none can hold a greater
@@ -265,7 +349,8 @@ def validity(motion: Trajectory, block: Block, *, full: bool = False) -> Validit
     TypeError
         If `block` is not a Block.
     ValueError
-        If the motion was not recorded with record="all". With ``full``, also if it is that of a full block.
+        If the motion was not recorded with record="all", or if `block` has other sides than the block of the motion. With ``full``,
+        also if it is that of a full block.
 
     Examples
     --------
@@ -275,7 +360,8 @@ def validity(motion: Trajectory, block: Block, *, full: bool = False) -> Validit
     >>> motion.validity(block).friction > 0.25
     True
     """
-    instance("block", block, Block)
+    block = in_units_of(motion.system.block, instance("block", block, Block))
+    check_sides(motion.system, block)
     until = motion.duration if motion.overturning is None else motion.overturning.time
     moving, resting, leaning = split(motion, until)
     forcing = motion.system.forcing
@@ -290,22 +376,36 @@ def validity(motion: Trajectory, block: Block, *, full: bool = False) -> Validit
 
     reaction = min(global_minimum(upward, moving, fast), global_minimum(upward, resting, slow))
     pulled = Extreme(-math.inf, reaction.time)
-    slides = {
+    needs = {
         "motion": global_minimum(hold, moving, fast) if reaction.value > 0 else pulled,
         "impact": impact_friction(motion, block),
         "rest": global_minimum(hold, resting, slow),
     }
-    source = min(slides, key=lambda name: slides[name].value)
-    friction = slides[source]
+    source = min(needs, key=lambda name: needs[name].value)
+    needed = needs[source]
+    begins, phase = math.inf, ""
+    if friction is not None and -needed.value > friction * (1 + LEAST_LACK):
+        impacts, pushes = impact_pushes(motion, block)
+        begins, phase = min(
+            (
+                float(np.min(impacts[pushes > friction], initial=math.inf)),
+                "impact",
+            ),
+            (first_time(hold, -friction, moving, fast), "motion"),
+            (first_time(hold, -friction, resting, slow), "rest"),
+        )
     angle = largest_angle(motion, block, until)
     slender = motion.system.critical_angle is None
-    moment_error, forcing_error = slender_errors(block.critical_angle, angle) if slender else (0.0, 0.0)
+    moment_error, forcing_error = (0.0, 0.0)
+    if slender:
+        right, left = block.critical_angles
+        moment_error, forcing_error = slender_errors(right, angle, block.normalised_by, left)
     result = Validity(
         until=until,
         overturned=motion.overturning is not None,
-        friction=None if friction == NOTHING else abs(friction.value),
-        friction_source=None if friction == NOTHING else source,
-        friction_time=None if friction == NOTHING else friction.time,
+        friction=None if needed == NOTHING else abs(needed.value),
+        friction_source=None if needed == NOTHING else source,
+        friction_time=None if needed == NOTHING else needed.time,
         reaction=None if reaction == NOTHING else reaction.value,
         reaction_time=None if reaction == NOTHING else reaction.time,
         angle=angle,
@@ -313,30 +413,118 @@ def validity(motion: Trajectory, block: Block, *, full: bool = False) -> Validit
         moment_error=moment_error,
         forcing_error=forcing_error,
         time_unit=block.seconds(1.0),
+        normalised_by=block.normalised_by,
+        available_friction=friction,
+        slides_from=begins if begins < math.inf else None,
+        slides_in=phase if begins < math.inf else None,
     )
     if full:
-        outcome, reached = full_block(motion, block)
+        known = motion.system.critical_angle is not None
+        refuse_if(known, "full", "be False for a motion by the full equation", True)
+        outcome, reached = by_other_equation(motion, block)
         result = evolve(result, full_outcome=outcome, full_angle=block.critical_angle * reached)
     return evolve(result, warnings=tuple(warnings(result, motion, block, leaning)))
 
 
-def full_block(motion: Trajectory, block: Block) -> tuple[Outcome, float]:
-    """Return the outcome and the largest |Θ| of the full block under the base motion of a slender one, infinite if it overturns.
+SAME_SIDES = 1e-9
+"""Relative difference up to which the sides of a block are those of a motion."""
 
-    A harmonic base motion lasts as long as that of the motion. Another one is followed to its end, as in `simulate`.
+
+def check_sides(system: System, block: Block) -> None:
+    """Raise ValueError for a block whose left side is not that of the system, in units of the right one."""
+    own, other = (
+        (1.0, 1.0) if each is None else (each.angle_ratio, each.frequency_ratio)
+        for each in (system.left, block.left)
+    )
+    apart = any(abs(one - two) > SAME_SIDES * two for one, two in zip(own, other, strict=True))
+    got = Text(f"one with {{offset}} {block.offset:g} m")
+    refuse_if(apart, "block", "have the sides of the block of the motion", got)
+
+
+def other_system(system: System, block: Block) -> System:
+    """Return the system of the other equation under the same base motion: full, or slender with a/(g tan θcr)."""
+    angle = block.critical_angle
+    own = block.acceleration_unit_g if system.critical_angle is None else angle
+    other = angle if system.critical_angle is None else math.tan(angle)
+    forcing = system.forcing
+    if isinstance(forcing, Pulse):
+        forcing = evolve(forcing, amplitude=forcing.amplitude * (own / other))
+    elif isinstance(forcing, PiecewiseLinear):
+        forcing = evolve(forcing, scale=forcing.scale * (own / other))
+    critical = angle if system.critical_angle is None else None
+    return evolve(system, forcing=forcing, critical_angle=critical, block=None)
+
+
+def by_other_equation(motion: Trajectory, block: Block) -> tuple[Outcome, float]:
+    """Return the outcome and the largest |Θ| by the other equation under the same base motion, infinite if the block overturns.
+
+    A harmonic base motion lasts as long as that of the motion, and so does one that was cut short. Another one is followed to its
+    end, as in `simulate`.
     """
-    known = motion.system.critical_angle is not None
-    refuse_if(known, "full", "be False for a motion by the full equation", True)
-    system = evolve(motion.system, critical_angle=block.critical_angle)
+    system = other_system(motion.system, in_units_of(motion.system.block, block))
     p, cycles, start = parameters(system), motion.cycles, (motion.start.angle, motion.start.velocity)
-    if not isinstance(system.forcing, Harmonic):
-        falls = finite_runs.run_to_end(p, *start, math.inf).status == kernel.OVERTURNED
+    finite = not isinstance(system.forcing, Harmonic)
+    if finite and motion.outcome is Outcome.BOUNDED and not is_lossless(system):
+        cycles = max(1, math.ceil(motion.duration / (numbers.CYCLE * system.forcing.time_scale)))
+        p = parameters(system, motion.duration / cycles)
+    elif finite:
+        falls = finite_runs.run_to_end(p, *start, math.inf).status == march.OVERTURNED
         endless = is_lossless(system) and not falls
-        cycles = math.ceil(motion.duration / p.clock.cycle_length) if endless else kernel.OPEN
-    begun, _ = initial_state.begin_march(p, *start)
+        cycles = math.ceil(motion.duration / p.clock.cycle_length) if endless else march.OPEN
+    begun, _ = march.begin_march(p, *start)
     status, reached, _, _ = run(p, begun, cycles, 0.0, "none", want_peak=True)
     outcome = outcome_of(status)
     return outcome, math.inf if outcome is Outcome.OVERTURNED else reached.peak
+
+
+LARGEST_DIFFERENCE = 0.05
+"""Difference of two largest |Θ| up to which a report does not state the other one."""
+
+
+class OtherMotion(NamedTuple):
+    """Motion of a block by the other equation: its model, its outcome and its largest |Θ|, infinite if the block overturns."""
+
+    model: str
+    outcome: Outcome
+    peak: float
+
+
+def other_motion(motion: Trajectory) -> OtherMotion | None:
+    """Return the motion by the other equation if it differs; None if it does not, or if there is none.
+
+    The slender block takes a/(g tan θcr). The motions differ if only one block overturns, or if the largest |Θ| differ by more than
+    0.05. There is another equation for a block in SI under a base motion of finite length.
+    """
+    system, block = motion.system, motion.system.block
+    if block is None or isinstance(system.forcing, Harmonic) or system.restitution_table:
+        return None
+    try:
+        outcome, peak = by_other_equation(motion, block)
+    except Refusal:  # an angle, or braces, that the full equation does not take
+        return None
+    falls = math.inf if motion.outcome is Outcome.OVERTURNED else motion.peak
+    if falls == peak or abs(falls - peak) <= LARGEST_DIFFERENCE:
+        return None
+    return OtherMotion("full" if system.critical_angle is None else "slender", outcome, peak)
+
+
+def compared(motion: Trajectory) -> tuple[str, str]:
+    """Return the name of the other equation, and its outcome in words, if the motion by it differs; else two empty texts."""
+    other = other_motion(motion)
+    if other is None:
+        return "", ""
+    name = {"full": "full equation", "slender": "slender block"}[other.model]
+    if other.outcome is Outcome.OVERTURNED:
+        return name, "overturns"
+    stands = "stands" if motion.outcome is Outcome.OVERTURNED else "also stands"
+    assert motion.system.block is not None
+    return name, f"{stands}, largest |θ| {degrees_and_share(motion.system.block, other.peak)}"
+
+
+def degrees_and_share(block: Block, angle: float) -> str:
+    """Return an angle in degrees and in units of the critical angle, of an unsymmetric block that of θ > 0."""
+    side = "" if block.left is None else " of θ > 0"
+    return f"{block.degrees(angle):.4g}°, {angle:.4g} θcr{side}"
 
 
 def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) -> tuple[Array, Array]:
@@ -344,32 +532,55 @@ def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) 
 
     Relative to the base, the centre of mass has the accelerations ``x'' = R (cos δ θ'' ± sin δ θ'²)`` and
     ``y'' = R (± sin δ θ'' − cos δ θ'²)``, with δ = θcr − |θ| and ± for the side. Then H/M = a_g + x'' and N/M = g + y''.
-    In units of g, R α²/g = MR²/Io.
+    In units of g, R α²/g = MR²/Io. R and θcr are those of the side.
     """
     angle, velocity = motion.at(times)
-    lean = block.critical_angle - block.critical_angle * np.abs(angle)
-    turning = block.critical_angle / block.inertia_ratio * motion.acceleration(times)
-    centripetal = block.critical_angle**2 / block.inertia_ratio * velocity**2
-    push = block.critical_angle * motion.system.forcing.acceleration(times)
+    left = np.asarray(sides) < 0
+    arm = np.where(left, block.radii[1] / block.radii[0], 1.0)
+    lean = np.where(left, *reversed(block.critical_angles)) - block.critical_angle * np.abs(angle)
+    turning = arm * (block.critical_angle / block.inertia_ratio * motion.acceleration(times))
+    centripetal = arm * (block.critical_angle**2 / block.inertia_ratio * velocity**2)
+    push = block.acceleration_unit_g * motion.system.forcing.acceleration(times)
     sideways = push + np.cos(lean) * turning + sides * np.sin(lean) * centripetal
     return sideways, 1 + sides * np.sin(lean) * turning - np.cos(lean) * centripetal
 
 
 def impact_friction(motion: Trajectory, block: Block) -> Extreme:
-    """Return −|J_x|/J_y = −(1 − e)/((1 + e) tan θcr) of the impact with the smallest coefficient of restitution, and its time."""
-    times, restitutions = impact_restitutions(motion)
+    """Return −|J_x|/J_y of the impact that needs most friction, and its time."""
+    times, pushes = impact_pushes(motion, block)
     if times.size == 0:
         return NOTHING
-    hardest = int(np.argmin(restitutions))
-    e = float(restitutions[hardest])
-    return Extreme(-(1 - e) / ((1 + e) * math.tan(block.critical_angle)), float(times[hardest]))
+    place = int(np.argmax(pushes))
+    return Extreme(-float(pushes[place]), float(times[place]))
+
+
+def impact_pushes(motion: Trajectory, block: Block) -> tuple[Array, Array]:
+    """Return the times of the impacts, and |J_x|/J_y = (1 − e)/(tan θcr + e tan θcr') of each, θcr before and θcr' after it."""
+    times, restitutions = impact_restitutions(motion)
+    first, second = np.tan(block.critical_angles)
+    before = np.where(after_left(motion), second, first)
+    return times, (1 - restitutions) / (before + restitutions * (first + second - before))
+
+
+def after_left(motion: Trajectory) -> NDArray[np.bool_]:
+    """Return for each impact at Θ = 0 whether it ends the motion on the side Θ < 0."""
+    return motion.events["before"][motion.events["kind"] == "impact"] > 0
 
 
 def impact_restitutions(motion: Trajectory) -> tuple[Array, Array]:
     """Return the times of the impacts at Θ = 0, and the coefficient of restitution at the speed of each."""
     impacts = motion.events[motion.events["kind"] == "impact"]
-    speeds, kept = np.array(motion.system.restitution_law or [(0.0, motion.system.restitution)]).T
-    return impacts["time"], np.interp(np.abs(impacts["before"]), speeds, kept)
+    before, after = np.abs(impacts["before"]), np.abs(impacts["after"])
+    if (left := motion.system.left) is not None:
+        law = np.where(after_left(motion), left.restitution, motion.system.restitution)
+    else:
+        speeds, kept = np.array(motion.system.restitution_law or [(0.0, motion.system.restitution)]).T
+        law = np.interp(before, speeds, kept)
+    if (
+        motion.system.restitution_scatter is not None
+    ):  # an impact after which the block rests has no speed after it
+        law = np.where(after > 0.0, after / np.where(before > 0.0, before, 1.0), law)
+    return impacts["time"], law
 
 
 def largest_angle(motion: Trajectory, block: Block, until: float) -> float:
@@ -383,15 +594,22 @@ def warnings(result: Validity, motion: Trajectory, block: Block, leaning: Arcs) 
     """Yield one sentence for each assumption that does not hold, and for each excluded quantity."""
     if result.overturned and result.reaction is None:
         yield "sliding and uplift are not assessed, because overturning is certain from the start"
-    if result.friction is not None and ORDINARY_FRICTION < result.friction < math.inf:
+    if result.slides_from is not None:
+        yield "sliding: the motion and its results are those of a block that does not slide"
+    if (
+        result.available_friction is None
+        and result.friction is not None
+        and ORDINARY_FRICTION < result.friction < math.inf
+    ):
         at = f"({result.friction_source}, {result.instant(result.friction_time)})"
         yield f"sliding: a coefficient of friction of at least {result.friction:.3g} is required {at}"
     if result.reaction is not None and result.reaction <= 0:
         at = result.instant(result.reaction_time)
         yield f"base reaction: {result.reaction:.3g} Mg at {at}; the base would have to pull the block down"
-    hit = float(np.min(impact_restitutions(motion)[1], initial=1.0))
-    full = motion.system.critical_angle is not None
-    yield from block_warnings(block, motion.system.forcing.largest, hit, result.angle, full=full)
+    (_, used), from_left = impact_restitutions(motion), after_left(motion)
+    right, left = (float(np.min(used[each], initial=1.0)) for each in (~from_left, from_left))
+    full, largest = motion.system.critical_angle is not None, motion.system.forcing.largest
+    yield from block_warnings(block, largest, right, result.angle, left_restitution=left, full=full)
     if motion.brace_hits:
         yield f"brace impacts: {motion.brace_hits}, not assessed, because the base reactions depend on the height of the brace"
     if leaning.starts.size:

@@ -6,9 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.orbits import arclength, branch_point
+from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model.orbit import Orbit
+from rocking.model.quantity import LEFT_QUANTITIES
 from rocking.model.validation import Refusal, instance, one_of, refuse_if, whole
 from rocking.motion.simulate import simulate
 from rocking.orbits import resting_branch
@@ -176,7 +177,7 @@ def continue_orbit(
     if orbit._grazes:
         allowed = "not be that of a grazing, where its branch ends"
         raise Refusal("orbit", allowed, str(orbit), "use a neighbouring one: branch.orbit(index)")
-    one_of("parameter", parameter, (*NAMES, "critical_angle"))
+    one_of("parameter", parameter, (*NAMES, "critical_angle", *LEFT_QUANTITIES))
     here = value_of(orbit.system, parameter)
     low, high = check_range(parameter, bounds)
     refuse_if(
@@ -186,7 +187,7 @@ def continue_orbit(
     most = whole("max_points", max_points, 2, 1_000_000)
     if orbit.superstable:
         return resting_branch.branch_through(orbit, parameter, (low, high), step, most)
-    if orbit.system.critical_angle is not None:
+    if not orbit.system.has_chains:
         return branch_through(orbit, parameter, (low, high), step, most)
     check_speeds(orbit)
     chain = chain_of(orbit)
@@ -320,7 +321,7 @@ def _beside(problem: arclength.Problem, row: np.ndarray, direction: np.ndarray) 
         facts = _follow(problem, off, direction, 1).table.facts
         # At the special point a multiplier is 1, so the angle is π/4.
         if len(facts):
-            angle = branch_point.multiplier_angle.py_func(facts["trace"][0], facts["determinant"][0])
+            angle = np.arctan(facts["trace"][0] / (1.0 + facts["determinant"][0]))  # ``multiplier_angle``
             if abs(angle - 0.25 * np.pi) <= kernel.MAX_TURN:
                 return off
     return row + OFF * problem.longest * direction

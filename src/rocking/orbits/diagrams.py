@@ -4,25 +4,25 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import Executor, ThreadPoolExecutor
-from itertools import repeat
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.march import march, no_recording
-from rocking.kernels.march import sweep as kernel
+from rocking.kernels import system as numbers
+from rocking.kernels.motion import march
 from rocking.model.arrays import ReadOnlyArrays, nan_if_none, read_only
 from rocking.model.progress import Bar
 from rocking.model.quantity import PHASE, SYSTEM_QUANTITIES
+from rocking.model.restitution import check_uniform
 from rocking.model.result import Result, along, described
-from rocking.model.system import State, System, check_constant_restitution, check_periodic
+from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import TooManyEvents, instance, one_of, whole
 from rocking.model.verdict import Kind, Verdict
 from rocking.motion.march_loop import start_march
 from rocking.orbits.parameter import coordinate_of, fixed_quantities, kinds_of, varied_parameter, with_value
+from rocking.orbits.sweeps import SweepSpec, run_sweeps
 from rocking.orbits.verdicts import verdicts_over
 from rocking.response.classify import budget, mean_impacts
 from rocking.response.rotation_number import RotationNumber
@@ -194,8 +194,6 @@ SWEEPS = {"up": ("up",), "down": ("down",), "both": ("up", "down"), "rest": ("re
 MAX_CYCLES = 1_000_000
 # Two numbers per point: half a gibibyte.
 MAX_POINTS = 2**25
-# Compiled code cannot be interrupted. It returns after this number of cycles, or after one value.
-BREATH = 1_000_000
 
 
 def orbit_diagram(
@@ -214,7 +212,10 @@ def orbit_diagram(
     transient: int = 300,
     cycles: int = 100,
     section_phase: float | None = None,
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
     progress: bool = False,
+    repair: bool = False,
 ) -> OrbitDiagram:
     """Compute an orbit (bifurcation) diagram: section points after a transient, over the values of a parameter.
 
@@ -239,8 +240,9 @@ def orbit_diagram(
         Number of points recorded at each value, at least 1, and at most 2²⁵ ≈ 3.4·10⁷ points in total. Default: 100.
     section_phase : float, optional
         Forcing phase ψ of the section, rad. Default: the phase φ of the forcing.
-    progress : bool
-        Whether to show the progress on stderr. Default: False.
+    store, executor, progress, repair
+        As in `parametric_map`. The store holds one survey for each part of the values, a folder in it, and `cycles` is at most 10⁶
+        then. A part of a sweep is one task of the executor, which begins after the part before it.
 
     Returns
     -------
@@ -255,6 +257,8 @@ def orbit_diagram(
         If an argument, or one of the values, lies outside its range.
     TooManyEvents
         If there are more than 10⁷ events in one cycle.
+    ImportError, OSError
+        As in `parametric_map`, with a store.
 
     See Also
     --------
@@ -282,21 +286,34 @@ def orbit_diagram(
     values = amplitude, period, frequency, phase, restitution, brace_angle, brace_restitution, critical_angle
     parameter, ordered = _varied(system, progress, MAX_POINTS, *values)
     start = State() if start is None else start
-    sweeps = SWEEPS[one_of("sweep", sweep, tuple(SWEEPS))]
+    sweep = one_of("sweep", sweep, tuple(SWEEPS))
+    sweeps = SWEEPS[sweep]
     transient = whole("transient", transient, 0, MAX_CYCLES)
-    cycles = whole("cycles", cycles, 1, max(MAX_POINTS // (len(sweeps) * len(ordered)), 1))
+    most = max(MAX_POINTS // (len(sweeps) * len(ordered)), 1)
+    cycles = whole("cycles", cycles, 1, most if store is None else min(most, MAX_CYCLES))
     section_phase = system.periodic.phase if section_phase is None else section_phase
     section_phase = PHASE.checked(section_phase, "section_phase")
     systems = _systems(system, start, parameter, ordered)
-    check_constant_restitution(system)
+    if parameter == "restitution":
+        check_uniform(system.restitution_table, "an orbit diagram over it")
     rows = np.array([numbers.row_of(start_march(each, start)[0]) for each in systems])
-    lanes = _lanes(rows, sweeps, cycles)
-    total = len(ordered) * len(sweeps)
-    with Bar(total, "orbit diagram", shown=progress) as bar:
-        _run(lanes, start, "rest" not in sweeps, transient, section_phase, bar)
+    orders = [slice(None, None, -1 if each == "down" else 1) for each in sweeps]
+    request = SweepSpec(
+        {},
+        system=system,
+        parameter=parameter,
+        sweep=sweep,
+        transient=transient,
+        cycles=cycles,
+        section_phase=section_phase,
+        values=np.stack([ordered[order] for order in orders]),
+        rows=np.stack([rows[order] for order in orders]),
+        states=np.array([(start.angle, start.velocity)] * len(sweeps)),
+    )
+    with Bar(request.values.size, "orbit diagram", shown=progress) as bar:
+        results = run_sweeps(request, store, executor, bar, repair=repair)
     points, peak, statuses = (
-        np.stack([_ascending(lanes, sweep, name) for sweep in sweeps])
-        for name in ("section", "peak", "statuses")
+        np.stack([each[order] for each, order in zip(arrays, orders, strict=True)]) for arrays in results
     )
     if (statuses == march.CROWDED).any():
         value = ordered[(statuses == march.CROWDED).any(axis=0)][0]
@@ -316,61 +333,6 @@ def orbit_diagram(
         transient=transient,
         section_phase=section_phase,
     )
-
-
-class _Lane(NamedTuple):
-    """Systems in the order in which one thread processes them, with the output arrays."""
-
-    sweep: str
-    rows: NDArray[np.float64]
-    section: NDArray[np.float64]
-    peak: NDArray[np.float64]
-    statuses: NDArray[np.int64]
-
-
-def _lanes(rows: np.ndarray, sweeps: tuple[str, ...], cycles: int) -> list[_Lane]:
-    """Return one lane for each sweep; independent motions are distributed among the processors."""
-    if sweeps == ("rest",):
-        parts = [("rest", part) for part in np.array_split(rows, min(os.cpu_count() or 1, len(rows)))]
-    else:
-        parts = [(sweep, np.ascontiguousarray(rows[:: -1 if sweep == "down" else 1])) for sweep in sweeps]
-    return [
-        _Lane(
-            sweep, part, np.empty((len(part), cycles, 2)), np.empty(len(part)), np.empty(len(part), np.int64)
-        )
-        for sweep, part in parts
-    ]
-
-
-def _run(
-    lanes: list[_Lane],
-    start: State,
-    carry: bool,
-    transient: int,
-    phase: float,
-    bar: Bar,
-) -> None:
-    """Fill the lanes, one thread per lane, in batches short enough for Ctrl-C and progress reports."""
-    nothing = no_recording.no_recording()
-    kind = numbers.parameters_of_row(lanes[0].rows[0])
-    batch = max(BREATH // (transient + lanes[0].section.shape[1]), 1)
-    states = [(start.angle, start.velocity)] * len(lanes)
-
-    def advance(lane: _Lane, state: tuple[float, float], done: slice) -> tuple[float, float]:
-        out = lane.section[done], lane.peak[done], lane.statuses[done]
-        return kernel.sweep(kind, lane.rows[done], *state, carry, transient, phase, *out, nothing)
-
-    with ThreadPoolExecutor(len(lanes)) as pool:
-        for first in range(0, max(len(lane.rows) for lane in lanes), batch):
-            done = slice(first, first + batch)
-            states = list(pool.map(advance, lanes, states, repeat(done)))
-            bar.advance(sum(len(lane.rows[done]) for lane in lanes))
-
-
-def _ascending(lanes: list[_Lane], sweep: str, name: str) -> np.ndarray:
-    """Return one output of a sweep, over ascending values."""
-    values = np.concatenate([getattr(lane, name) for lane in lanes if lane.sweep == sweep])
-    return values[::-1] if sweep == "down" else values
 
 
 @frozen(eq=False)

@@ -10,10 +10,10 @@ import numpy as np
 from attrs import evolve
 
 from rocking.kernels import event_kinds
-from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.orbits import arclength, branch_point, chain_queries, chain_validation, floquet
+from rocking.kernels import system as numbers
+from rocking.kernels.orbits import arclength, chain_check, floquet
+from rocking.kernels.orbits import chain as kernel
 from rocking.kernels.orbits import continuation as following
-from rocking.kernels.orbits import event_chain as kernel
 from rocking.model.orbit import Orbit, OrbitEvent
 from rocking.model.system import NO_BRACES, State, System, quantities
 from rocking.model.validation import Refusal, Text
@@ -21,9 +21,9 @@ from rocking.motion.simulate import simulate
 from rocking.orbits.parameter import with_value
 
 IMPACT, BRACE = event_kinds.IMPACT, event_kinds.BRACE
-Condition = chain_validation.Condition
+Condition = chain_check.Condition
 End = arclength.End
-Special = branch_point.Special
+Special = following.Special
 NAMES = {
     "amplitude": kernel.AMPLITUDE,
     "frequency": kernel.FREQUENCY,
@@ -174,7 +174,7 @@ def equations(chain: Chain, parameter: str, row: np.ndarray) -> tuple[np.ndarray
     """
     k = len(chain.kinds)
     there = kernel.make_equations(k + 1)
-    trace, determinant = chain_queries.equations_at(
+    trace, determinant = kernel.equations_at(
         parameters(chain.system), NAMES[parameter], chain.fixed, row, there
     )
     return there.jacobian[:k], there.links[:k], trace, determinant
@@ -190,7 +190,7 @@ def null_direction(chain: Chain, parameter: str, row: np.ndarray) -> np.ndarray:
 def multipliers_of(trace: float, determinant: float, mirrored: bool) -> tuple[complex, complex]:
     """Return the Floquet multipliers over one period, the larger first, or the one above the real axis."""
     trace, determinant = float(trace), float(determinant)
-    first, second = floquet.multipliers_plain(
+    first, second = floquet.complex_multipliers(
         0.5 * trace, 0.25 * trace * trace - determinant, determinant, mirrored
     )
     return first, second
@@ -278,7 +278,7 @@ def _arrivals(chain: Chain, parameter: str, row: np.ndarray, last_side: int) -> 
 def states(chain: Chain, parameter: str, rows: np.ndarray, phase: float, count: int) -> np.ndarray:
     """Return Θ and Θ' of orbits at a forcing phase in successive cycles, shape (rows, count, 2)."""
     out = np.empty((len(rows), count, 2))
-    chain_queries.states_at(
+    kernel.states_at(
         parameters(chain.system), NAMES[parameter], chain.fixed, np.ascontiguousarray(rows), phase, out
     )
     return out

@@ -7,9 +7,9 @@ import math
 import numpy as np
 from attrs import evolve
 
-from rocking.kernels.classify import least_period
-from rocking.kernels.classify import workspace as memory
-from rocking.kernels.orbits import newton_search as kernel
+from rocking.kernels.classify import cascade as memory
+from rocking.kernels.classify import periodicity
+from rocking.kernels.orbits import return_map as kernel
 from rocking.model.orbit import Orbit, OrbitEvent
 from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import NoOrbit, Refusal, instance, whole
@@ -152,13 +152,15 @@ def mirrored_half(chain: Chain) -> Chain | None:
 def _with_multipliers(orbit: Orbit) -> Orbit:
     """Return an orbit with its multipliers and events, from the motion over one period.
 
-    Used for the full block, and where an impact takes all speed: the equations of such a chain have no solution.
+    Used for the full block and the unsymmetric one, and where an impact takes all speed: the equations of such a chain have no solution.
     """
     begun = clocked(orbit.system, orbit.phase)
     derivative = monodromy(begun, orbit.state, orbit.period)
     determinant = float(np.linalg.det(derivative))
     if not orbit.system.restitution_table:  # no cancellation
         determinant = orbit.system.restitution ** (2 * (orbit.impacts or 0))
+        if orbit.system.left is not None:  # impacts of both directions alternate
+            determinant = (orbit.system.restitution * orbit.system.left.restitution) ** (orbit.impacts or 0)
         if orbit.system.braces is not None:
             determinant *= orbit.system.braces.restitution ** (2 * (orbit.brace_hits or 0))
     events, frequency = simulate(begun, orbit.state, cycles=orbit.period).events, begun.periodic.frequency
@@ -200,7 +202,8 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
         return None
     rows = motion.section()
     halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.periodic.period))
-    least, symmetric = least_period.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
+    least, symmetric = periodicity.repetition(rows, halves, state.angle, state.velocity, period, SAME)
+    symmetric = symmetric and system.left is None
     events = motion.events[motion.events["time"] <= least * system.periodic.period]
     rested, leaned = (bool(np.isin(events["kind"], kinds).any()) for kinds in (RESTING, LEANING))
     impacts, brace_hits = (int((events["kind"] == kind).sum()) for kind in ("impact", "brace"))
@@ -219,7 +222,7 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     )
     if orbit.superstable:
         return orbit
-    if system.critical_angle is not None:
+    if not system.has_chains:
         return _with_multipliers(orbit)
     if impacts + brace_hits == 0:
         return evolve(orbit, events=saddle_events(system, orbit.phase, orbit.state))

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import math
 import os
-import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, overload
 
 import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.kernels import batch
-from rocking.kernels.classify import attractor_anchor
 from rocking.model.orbit import Orbit, Stability, orbit_columns
 from rocking.model.result import Result, along, described
 from rocking.model.system import State, System, quantities
@@ -30,7 +27,7 @@ from rocking.proof.prove import prove as proved
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import SurveySpec, Values
-from rocking.survey.store_access import check_folder_of_stores
+from rocking.survey.store_access import store_in
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -114,7 +111,7 @@ class OrbitRegistry:
             return self.pairs[owner]
         self.counts.append(0)
         self._add(orbit)
-        if not orbit.symmetric:
+        if not orbit.symmetric and self.system.left is None:
             self._add(mirrored(orbit))
         return len(self.counts) - 1
 
@@ -130,10 +127,10 @@ Map = tuple[int, bool]
 """Forcing cycles of a map, and whether it is mirrored after half of them."""
 
 
-def maps_up_to(max_period: int) -> list[Map]:
-    """Return the maps over each period, then those over half of each odd period and mirrored."""
+def maps_up_to(max_period: int, *, symmetric: bool = True) -> list[Map]:
+    """Return the maps over each period, then, for a symmetric block, those over half of each odd period and mirrored."""
     periods = range(1, max_period + 1)
-    return [(n, False) for n in periods] + [(n, True) for n in periods[::2]]
+    return [(n, False) for n in periods] + [(n, True) for n in periods[::2] if symmetric]
 
 
 NOT_FOUND, FOUND = 0, 1
@@ -220,16 +217,6 @@ FIXED_POINTS = Measurement(
     shares="found",
     batch=1024,
 )
-ROUND = re.compile(r"round-\d+")
-
-
-def round_in(store: str | os.PathLike[str] | None, number: int) -> Path | None:
-    """Return the folder of a round in the store of a search; None without a store. StoreError for a folder with anything else."""
-    if store is None:
-        return None
-    folder = check_folder_of_stores(store, ROUND)
-    return folder / f"round-{number}"
-
 
 MAX_PERIOD = 64
 # Number of initial guesses per map in the first round; it doubles in later rounds.
@@ -423,16 +410,16 @@ def find_orbits(
     if instance("prove", prove, bool):
         check_provable(system)
     box = _box(system, angles, velocities)
-    there = clocked(system, (system.periodic.phase + math.tau * attractor_anchor.SECTION) % math.tau)
+    there = clocked(system, (system.periodic.phase + math.tau * batch.SECTION) % math.tau)
     known, used = OrbitRegistry(system, there.periodic.phase), 0
-    maps = maps_up_to(max_period)
+    maps = maps_up_to(max_period, symmetric=system.left is None)
     settled = False
     for number in range(MAX_ROUNDS):
         count = max(round(effort * FIRST_ROUND * 2 ** max(number - 1, 0)), 1)
         before = len(known.orbits)
         axes = {"map": np.arange(float(len(maps))), "guess": np.arange(float(used), float(used + count))}
         spec = SearchSpec(axes, system=there, max_period=max_period, box=box, effort=effort, seed=seed)
-        place = round_in(store, number)
+        place = store_in(store, "round", number)
         found = run_survey(spec, FIXED_POINTS, place, executor, progress=progress, repair=repair).load()
         for row, (period, _) in enumerate(maps):
             here = found.isel(map=row)
@@ -468,10 +455,13 @@ def _box(system: System, angles: Any, velocities: Any) -> tuple[float, ...] | No
         Lowest and highest angle, lowest and highest velocity.
     """
     forcing, braces = system.periodic, system.braces
-    if angles is None and velocities is None and braces is None and system.critical_angle is None:
+    if angles is None and velocities is None and braces is None and system.has_chains:
         return None
-    beta = forcing.amplitude / (1.0 + forcing.frequency**2)
-    reach = 1.0 + beta if braces is None else braces.angle
+    beta, least = forcing.amplitude / (1.0 + forcing.frequency**2), 1.0
+    if system.left is not None:
+        beta *= max(1.0, system.left.frequency_ratio**2)
+        least = max(1.0, system.left.angle_ratio)
+    reach = least + beta if braces is None else braces.angle
     fastest = (1.0 + (0.0 if braces is None else reach)) * FASTER * (1.0 + beta * (1.0 + forcing.frequency))
     box: tuple[float, ...] = ()
     for name, bounds, usual in (("angles", angles, reach), ("velocities", velocities, fastest)):

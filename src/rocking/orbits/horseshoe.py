@@ -5,7 +5,7 @@ from __future__ import annotations
 from rocking.model.orbit import Stability
 from rocking.model.proof import Horseshoe
 from rocking.model.system import System
-from rocking.model.validation import instance, refuse_if, whole
+from rocking.model.validation import Statement, instance, refuse_if, whole
 from rocking.orbits.find_orbits import MAX_PERIOD, find_orbits
 from rocking.proof.prove import check_provable, module
 
@@ -67,6 +67,10 @@ def horseshoe(system: System, search: bool = False, max_period: int = 4) -> Hors
     """
     instance("system", system, System).periodic  # noqa: B018 (it refuses)
     check_provable(system)
+    if system.left is not None:
+        raise Statement(
+            "horseshoes", "are proved for the symmetric block only", remedy="omit {left} and {offset}"
+        )
     if not instance("search", search, bool):
         refuse_if(system.braces is not None, "system", "have no braces without search=True", system)
         crossing: Horseshoe = module("horseshoe").tangle_of(system)

@@ -14,8 +14,8 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.kernels.march import march
-from rocking.kernels.orbits import saddle_manifold as kernel
+from rocking.kernels.motion import march
+from rocking.kernels.orbits import manifold as kernel
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.orbit import Orbit
 from rocking.model.quantity import PHASE

@@ -10,7 +10,7 @@ from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.forcing import Harmonic
-from rocking.model.quantity import SYSTEM_QUANTITIES
+from rocking.model.quantity import LEFT_QUANTITIES, SYSTEM_QUANTITIES
 from rocking.model.system import Braces, System, quantities
 from rocking.model.validation import Refusal, Text, WrongType, exactly_one, pair, reals, refuse_if, within
 from rocking.model.verdict import Kind
@@ -19,9 +19,10 @@ from rocking.model.verdict import Kind
 NEEDED = dict.fromkeys(
     ("brace_angle", "brace_restitution"), ("a braced system", "braces=rk.Braces(angle=1.0)")
 ) | {"critical_angle": ("a system with a critical angle", "critical_angle=0.25")}
+NEEDED |= dict.fromkeys(LEFT_QUANTITIES, ("an unsymmetric block", "left=rk.LeftSide(1.2, 1.0, 0.9)"))
 # Ranges of the model. Towards a coefficient of restitution of 0, an orbit cannot be continued.
 ALLOWED = {name: each.range for name, each in SYSTEM_QUANTITIES.items()} | dict.fromkeys(
-    ("restitution", "brace_restitution"), (1e-3, 1.0)
+    ("restitution", "brace_restitution", "left_restitution"), (1e-3, 1.0)
 )
 # Range of the largest step along a branch or a curve, in units of the ranges and of one radian of phase.
 STEPS = 1e-6, 0.1
@@ -49,6 +50,11 @@ def with_value(system: System, parameter: str, value: float) -> System:
         return evolve(system, restitution=value)
     if parameter == "critical_angle":
         return evolve(system, critical_angle=value)
+    if parameter in LEFT_QUANTITIES:
+        value_of(system, parameter)
+        assert system.left is not None
+        return evolve(system, left=evolve(system.left, **{parameter.removeprefix("left_"): value}))
+    refuse_if(system.left is not None, parameter, "be omitted for an unsymmetric block", value)
     braces = system.braces or Braces(angle=value)
     return evolve(system, braces=evolve(braces, **{parameter.removeprefix("brace_"): value}))
 

@@ -198,7 +198,7 @@ def held(motion: Motion, value: float, begun: float, angle: float, whole: float)
 
 def _is_symmetric(motion: Motion, begun: float, whole: float) -> bool:
     """Return whether the second half of a period is the mirror image of the first."""
-    if round(whole / math.tau) % 2 == 0:
+    if motion.system.left is not None or round(whole / math.tau) % 2 == 0:
         return False
     times = (begun + np.linspace(0.0, 0.5 * whole, SAMPLES)) / motion.system.periodic.frequency
     half = 0.5 * whole / motion.system.periodic.frequency

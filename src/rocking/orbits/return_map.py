@@ -1,4 +1,4 @@
-"""Return map of a periodic orbit of the full block, and the continuation of its fixed points (Keller 1977).
+"""Return map of a periodic orbit of the full or the unsymmetric block, and the continuation of its fixed points (Keller 1977).
 
 The unknowns are the angle and the velocity at a forcing phase, and the parameter in units of its range.
 """
@@ -220,7 +220,12 @@ class ReturnMap(Problem[FixedPoint]):
         return np.array(motion.at(wait))
 
     def asymmetry(self, point: FixedPoint) -> float:
-        """Return the distance of a state from that half a period later, mirrored if the period is odd."""
+        """Return the distance of a state from that half a period later, mirrored if the period is odd.
+
+        It is infinite for an unsymmetric block and an odd period: such an orbit has no mirror image.
+        """
+        if self.system.left is not None and self.period % 2 == 1:
+            return math.inf
         return float(np.hypot(*(point.unknowns[:2] - self._half_later(point.phase, point.unknowns))))
 
     def parent(self, point: FixedPoint) -> FixedPoint | None:
@@ -271,6 +276,8 @@ class ReturnMap(Problem[FixedPoint]):
         psi = system.periodic.frequency * events["time"]
         impacts, brace_hits = motion.impacts, motion.brace_hits
         kept = system.restitution**impacts
+        if system.left is not None:  # impacts of both directions alternate
+            kept = math.sqrt(system.restitution * system.left.restitution) ** impacts
         if system.braces is not None:
             kept *= system.braces.restitution**brace_hits
         determinant = kept * kept
@@ -299,7 +306,7 @@ def _state(unknowns: np.ndarray) -> State:
 
 
 def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, most: int) -> Branch:
-    """Return the branch of an orbit over a parameter in a range: ``continue_orbit`` for the full block.
+    """Return the branch of an orbit over a parameter in a range: ``continue_orbit`` for the full or the unsymmetric block.
 
     Raises
     ------

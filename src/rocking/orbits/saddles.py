@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.kernels.orbits import saddle_manifold as kernel
+from rocking.kernels.orbits import manifold as kernel
 from rocking.model.orbit import OrbitEvent
 from rocking.model.system import State, System
 from rocking.model.validation import Refusal, instance, refuse_if

@@ -101,7 +101,7 @@ class SpecialPoint:
     orbit: Orbit
     name: str
     index: int
-    _chain: Chain | None = field(repr=False)  # None for a full block
+    _chain: Chain | None = field(repr=False)  # None for a full or an unsymmetric block
     _row: np.ndarray = field(repr=False)
     _touch: GrazingContact | None = field(default=None, repr=False)
     _origin: Origin | None = field(default=None, repr=False)
@@ -116,8 +116,10 @@ def chain_at(special: SpecialPoint) -> Chain:
         allowed = "be that of an orbit without rest and without sustained contact with a brace"
         raise WrongType("special", allowed, f"a {special.kind} of an orbit that rests")
     if special._chain is None:
-        allowed = "be that of a slender block, whose arcs are closed forms"
-        raise WrongType("special", allowed, f"critical_angle {special.orbit.system.critical_angle}")
+        allowed = "be that of a slender, symmetric block, whose orbits are chains in closed form"
+        full = special.orbit.system.critical_angle
+        got = "an unsymmetric block" if full is None else f"critical_angle {full}"
+        raise WrongType("special", allowed, got)
     return special._chain
 
 

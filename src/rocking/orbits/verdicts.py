@@ -12,7 +12,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.kernels import batch
-from rocking.kernels.classify import results
+from rocking.kernels.classify import verdict
 from rocking.model.system import State, System
 from rocking.model.verdict import Kind, Verdict
 from rocking.motion.march_loop import start_march
@@ -48,17 +48,18 @@ class SystemSpec(SurveySpec):
         return identity_of(self.system, *self.axes) | start
 
 
-def _variable(name: str, dtype: np.dtype[Any]) -> Variable:
+def variable(name: str, dtype: np.dtype[Any]) -> Variable:
+    """Return a variable of a survey that only this package reads."""
     fill = 255 if dtype == np.uint8 else -2 if dtype.kind == "i" else math.inf
     own = meanings(Kind) if name == "kind" else {}
     return Variable(name, dtype.name, fill, {"long_name": name.replace("_", " "), **own})
 
 
 # The period of the response is no coordinate of the survey, as that of the forcing may be.
-_NAMES = tuple({"period": "response_period"}.get(name, name) for name in results.ResultArrays._fields)
-_BY_NAME = dict(zip(_NAMES, results.DTYPES, strict=True))
+_NAMES = tuple({"period": "response_period"}.get(name, name) for name in verdict.ResultArrays._fields)
+_BY_NAME = dict(zip(_NAMES, verdict.DTYPES, strict=True))
 # The type of response is written last.
-VARIABLES = tuple(_variable(name, np.dtype(_BY_NAME[name])) for name in (*list(_BY_NAME)[1:], "kind"))
+VARIABLES = tuple(variable(name, np.dtype(_BY_NAME[name])) for name in (*list(_BY_NAME)[1:], "kind"))
 
 
 def judgements_at(
@@ -98,9 +99,9 @@ def verdicts_over(
     spec = SystemSpec({parameter: values}, system=system, start=start)
     measure = Measurement(TITLE, judgements_at, VARIABLES, limits, batch.METHOD, batch=8)
     data = run_survey(spec, measure, store, executor, progress=progress, repair=repair).load()
-    arrays = results.ResultArrays(*(data[name].values for name in _NAMES))
+    arrays = verdict.ResultArrays(*(data[name].values for name in _NAMES))
     systems, _ = spec.inputs({parameter: values})
     return [
-        verdict_of(each, start, results.judgement_of(arrays, place), max_cycles, max_period)
+        verdict_of(each, start, verdict.judgement_of(arrays, place), max_cycles, max_period)
         for place, each in enumerate(systems)
     ]

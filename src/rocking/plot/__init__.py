@@ -35,12 +35,16 @@ def _in_units_of_the_result(draw: Any) -> Any:
     @wraps(draw)
     def drawn(*args: Any, **kwargs: Any) -> Any:
         with suppress(TypeError):  # the function itself refuses wrong arguments
-            arguments = parameters.bind(*args, **kwargs).arguments
-            if (
-                "block" not in arguments
-                and (block := _block(next(iter(arguments.values()), None))) is not None
-            ):
-                kwargs["block"] = block
+            bound = parameters.bind(*args, **kwargs)
+            arguments = bound.arguments
+            own = _block(next(iter(arguments.values()), None))
+            if "block" not in arguments and own is not None:
+                kwargs["block"] = own
+            elif own is not None and isinstance(arguments.get("block"), type(own)):
+                from rocking.model.block_formulas import with_unit
+
+                arguments["block"] = with_unit(arguments["block"], own.normalised_by)
+                args, kwargs = bound.args, bound.kwargs
         return draw(*args, **kwargs)
 
     return drawn

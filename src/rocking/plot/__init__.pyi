@@ -20,6 +20,7 @@ from rocking.plot.motions import time_history as time_history
 from rocking.plot.record_surveys import fragility as fragility
 from rocking.plot.record_surveys import incremental_dynamic_analysis as incremental_dynamic_analysis
 from rocking.plot.record_surveys import overturning_set as overturning_set
+from rocking.plot.restitution import restitution_fit as restitution_fit
 from rocking.plot.rocking_spectra import overturning_spectrum as overturning_spectrum
 from rocking.plot.rocking_spectra import rocking_spectrum as rocking_spectrum
 from rocking.plot.sections import correlation_dimension as correlation_dimension
@@ -29,6 +30,8 @@ from rocking.plot.shares import chaos_share as chaos_share
 from rocking.plot.shares import overturning as overturning
 from rocking.plot.shares import repeatability as repeatability
 from rocking.plot.shares import repeatability_map as repeatability_map
+from rocking.plot.sliding import first_motion as first_motion
+from rocking.plot.sliding import slip as slip
 from rocking.plot.spectra import spectrum as spectrum
 from rocking.plot.state_surveys import basins as basins
 from rocking.plot.state_surveys import safe_basin as safe_basin

@@ -119,4 +119,4 @@ def limit_label(limit: float, block: Block) -> str:
     """Return the event of exceeding a limit of |Θ|, in degrees."""
     if math.isinf(limit):
         return "overturning"
-    return rf"$|\theta| > {block.degrees(limit):.3g}°$ (${limit:g}\,\theta_\mathrm{{cr}}$)"
+    return rf"$|\theta| > {block.degrees(limit):.3g}°$ (${limit:.3g}\,\theta_\mathrm{{cr}}$)"

@@ -25,6 +25,7 @@ from PIL import Image
 
 from rocking.model.block import Block
 from rocking.model.files import replacing
+from rocking.model.result import in_units_of
 from rocking.model.system import System
 from rocking.model.validation import instance, within
 from rocking.model.verdict import Outcome
@@ -73,6 +74,10 @@ class Scene:
                 self.parts.append(Rectangle((side, 0), post, 1.04 * block.height, facecolor=style.BRACE))
         # This mark passes the marks on the ground and shows the motion of the table.
         self.parts.append(Line2D([0], [-0.6 * deep], marker="v", color=style.IMPACT, markersize=8))
+        self.centres = np.array([mass_centre(block, outline) for outline in self.outlines])
+        self.centre = Line2D(*self.centres[:1].T, marker="o", color=style.MOTION, markersize=6)
+        if block.left is not None:
+            self.parts.append(self.centre)
         for part in self.parts:
             ax.add_artist(part)
             part.set_transform(self.shift + ax.transData)
@@ -88,6 +93,7 @@ class Scene:
         """Place block and table for a frame; return the artists in the order in which they are drawn."""
         self.shift.clear().translate(self.base[frame], 0.0)
         self.body.set_xy(self.outlines[frame])
+        self.centre.set_data(*self.centres[frame : frame + 1].T)
         return self.parts
 
 
@@ -115,6 +121,13 @@ def corners(height: float, width: float, angle: float) -> NDArray:
     pivot = upright[1] if angle >= 0 else upright[0]
     cosine, sine = np.cos(angle), np.sin(angle)
     return pivot + (upright - pivot) @ np.array([[cosine, -sine], [sine, cosine]])
+
+
+def mass_centre(block: Block, outline: NDArray) -> NDArray:
+    """Return the mass centre (2,) of a block whose corners are those of `corners`, m."""
+    left, right, _, top = outline
+    along, up = (right - left) / block.width, (top - left) / block.height
+    return np.asarray((left + right) / 2 + block.offset * along + block.centre_height * up)
 
 
 COLOURS = ("white", style.INK, style.TABLE, style.BLOCK, style.IMPACT, style.BRACE, style.MOTION, style.GUIDE)
@@ -236,8 +249,8 @@ def schematic(ax: Axes | None = None, block: Block | None = None, *, lean: float
     """
     block = STOUT if block is None else instance("block", block, Block)
     height, width = block.height, block.width
-    critical = math.atan2(width, height)
-    angle = within("lean", lean, -1.0, 1.0) * critical
+    lean = within("lean", lean, -1.0, 1.0)
+    angle = lean * block.critical_angles[lean < 0]
     tilted = corners(height, width, angle)
     ax = style.own(ax, height=3.6)
     _base(ax, height, width)
@@ -245,8 +258,8 @@ def schematic(ax: Axes | None = None, block: Block | None = None, *, lean: float
         Polygon(tilted, facecolor=style.BLOCK, edgecolor=style.INK, linewidth=style.LINE, gid="block")
     )
     _sides(ax, tilted, height)
-    _centre(ax, tilted, height)
-    _angles(ax, tilted, height, critical, angle)
+    _centre(ax, tilted, mass_centre(block, tilted), height, both=block.left is not None)
+    _angles(ax, tilted, height, block, angle)
     for corner, name in ((tilted[1], "$O$"), (tilted[0], "$O'$")):
         ax.plot(*corner, "o", color=style.INK, markersize=3.5)
         _write(ax, name, (corner[0], -0.08 * height))
@@ -278,18 +291,31 @@ def _sides(ax: Axes, tilted: NDArray, height: float) -> None:
         _write(ax, name, (first + last) / 2 + 1.9 * gap * outward)
 
 
-def _centre(ax: Axes, tilted: NDArray, height: float) -> None:
-    """Draw the centre of mass, its distance R from the corner O, and the weight."""
-    pivot, centre = tilted[1], tilted.mean(axis=0)
-    ax.plot(*zip(pivot, centre, strict=True), color=style.MOTION, linewidth=style.LINE)
-    _write(ax, "$R$", pivot + 0.4 * (centre - pivot) - (0.06 * height, 0.0), style.MOTION)
+def _centre(ax: Axes, tilted: NDArray, centre: NDArray, height: float, *, both: bool) -> None:
+    """Draw the centre of mass, its distance R from the corner O, for unequal sides also that from O', and the weight."""
+    pivot = tilted[1]
+    for corner in (tilted[1], tilted[0])[: 1 + both]:
+        ax.plot(*zip(corner, centre, strict=True), color=style.MOTION, linewidth=style.LINE)
+    if both:
+        _write(
+            ax,
+            "$R_2$",
+            tilted[0] + 0.4 * (centre - tilted[0]) + (0.04 * height, -0.05 * height),
+            style.MOTION,
+        )
+    _write(
+        ax, "$R_1$" if both else "$R$", pivot + 0.4 * (centre - pivot) - (0.06 * height, 0.0), style.MOTION
+    )
     _arrow(ax, centre, centre - (0.0, 0.22 * height), style.INK, "-|>")
-    _write(ax, "$Mg$", centre - (0.09 * height, 0.17 * height))
+    _write(ax, "$Mg$", centre - ((0.0, -0.08 * height) if both else (0.09 * height, 0.17 * height)))
     ax.plot(*centre, "o", color=style.MOTION, markersize=4)
 
 
-def _angles(ax: Axes, tilted: NDArray, height: float, critical: float, angle: float) -> None:
-    """Draw θ between the vertical through O and the tilted side, and θcr between that side and the line to the centre of mass."""
+def _angles(ax: Axes, tilted: NDArray, height: float, block: Block, angle: float) -> None:
+    """Draw θ between the vertical through O and the tilted side, and θcr between that side and the line to the centre of mass.
+
+    For unequal sides also θcr of the other side, at O'.
+    """
     pivot = tilted[1]
     ax.plot(
         [pivot[0]] * 2,
@@ -299,10 +325,15 @@ def _angles(ax: Axes, tilted: NDArray, height: float, critical: float, angle: fl
         linewidth=style.LINE,
     )
     side = 90.0 - math.degrees(angle)
-    for radius, last, name, colour in (
-        (0.72 * height, 90.0, r"$\theta$", SHAKEN),
-        (0.36 * height, side + math.degrees(critical), r"$\theta_\mathrm{cr}$", style.MOTION),
-    ):
+    right, left = map(math.degrees, block.critical_angles)
+    own = r"\theta_\mathrm{cr}" if block.left is None else r"\theta_{\mathrm{cr},1}"
+    arcs = [
+        (pivot, 0.72 * height, side, 90.0, r"$\theta$", SHAKEN),
+        (pivot, 0.36 * height, side, side + right, f"${own}$", style.MOTION),
+    ]
+    if block.left is not None:
+        arcs.append((tilted[0], 0.36 * height, side - left, side, r"$\theta_{\mathrm{cr},2}$", style.MOTION))
+    for pivot, radius, side, last, name, colour in arcs:
         ax.add_patch(
             Arc(
                 tuple(pivot),
@@ -445,7 +476,7 @@ class _Film:
     """Frames of a motion at the instants `times` (τ): a scene above the time history, with a moving dot."""
 
     def __init__(self, motion: Motion, block: Block | None, times: NDArray, seconds: float) -> None:
-        body = block or NOMINAL
+        body = block or in_units_of(motion.block, NOMINAL)
         self.times, self.units = times, units_of(block)
         flat = body.angle(degrees=90)
         # a fallen block stays down: the motion is evaluated only up to the end of the fall

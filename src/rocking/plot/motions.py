@@ -172,7 +172,7 @@ def time_history(
     Notes
     -----
     Dotted lines mark the critical angle, dashed lines the braces. They are omitted if the motion stays below half of it.
-    Dotted lines in the panel of the base acceleration mark g θcr, beyond which a block at rest lifts off.
+    Dotted lines in the panel of the base acceleration mark the one beyond which a block at rest lifts off.
 
     Examples
     --------
@@ -227,7 +227,7 @@ def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block 
         first, last = (np.abs(forcing.acceleration(part)).max() for part in np.array_split(time, 3)[::2])
         _pair(
             ax,
-            units.amplitude(motion.system.lift_off),
+            tuple(units.amplitude(level) for level in motion.system.lift_offs),
             style.GUIDE,
             "dotted",
             "lift-off from rest",
@@ -267,20 +267,23 @@ def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right:
     """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it."""
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
-        level, colour, dashes, name = 1.0, style.GUIDE, "dotted", "critical angle"
+        left = 1.0 if system.left is None else system.left.angle_ratio
+        levels, colour, dashes, name = (left, 1.0), style.GUIDE, "dotted", "critical angle"
     else:
-        level, colour, dashes, name = system.braces.angle, style.BRACE, "dashed", "braces"
-    if largest > 0.5 * level:
-        _pair(ax, units.angle(level), colour, dashes, name, at_right=at_right)
+        levels, colour, dashes, name = (system.braces.angle,) * 2, style.BRACE, "dashed", "braces"
+    if largest > 0.5 * min(levels):
+        _pair(ax, tuple(map(units.angle, levels)), colour, dashes, name, at_right=at_right)
 
 
-def _pair(ax: Axes, level: float, colour: str, dashes: str, name: str, *, at_right: bool) -> None:
-    """Draw lines at ± a level, with a name above the upper one: at the left under a record, which begins weakly."""
-    for side in (-1.0, 1.0):
+def _pair(
+    ax: Axes, levels: tuple[float, float], colour: str, dashes: str, name: str, *, at_right: bool
+) -> None:
+    """Draw lines at minus the first and plus the second level, with a name above: at the left under a record, which begins weakly."""
+    for side, level in zip((-1.0, 1.0), levels, strict=True):
         ax.axhline(side * level, color=colour, linestyle=dashes, linewidth=style.LINE, gid=name)
     ax.text(
         1.0 if at_right else 0.01,
-        level,
+        levels[1],
         name,
         transform=ax.get_yaxis_transform(),
         ha="right" if at_right else "left",

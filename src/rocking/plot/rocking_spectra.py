@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 
 from rocking.model.block import Block
 from rocking.model.record_results import named_levels
-from rocking.model.record_set import INTENSITIES
+from rocking.model.record_set import measure_named
 from rocking.model.survey_results import OverturningSpectrum, RockingSpectrum, check_survey
 from rocking.model.text import counted
 from rocking.model.validation import Refusal, WrongType, one_of
@@ -141,15 +141,15 @@ def _head(ax: Axes, data: xr.Dataset) -> None:
         heading = counted(data.sizes["record"], "record")
     else:
         heading = shortened(str(data["name"].values) if "name" in data.coords else data.attrs["record"], 30)
-    style.title(ax, heading + style.FULL_EQUATION * (data.attrs.get("model") == "full"))
+    style.title(ax, heading + f"\n{style.FULL_EQUATION}" * (data.attrs.get("model") == "full"))
     constants = []
     if "slenderness" not in data.dims:
         constants.append(rf"$\theta_\mathrm{{cr}}$ = {np.degrees(float(value(data, 'slenderness'))):.3g}°")
     level = float(value(data, "level")) if "level" in {**data.coords, **data.attrs} else 1.0
     if level != 1.0:
-        measure = INTENSITIES.get(data.attrs["intensity"], (None,))[0]
-        unit = "" if measure is None or measure.unit == "1" else f" {measure.unit}"
-        symbol = data.attrs["intensity"] if measure is None else measure.symbol
+        known = measure_named(data.attrs["intensity"])
+        unit = "" if known is None or known[0].unit == "1" else f" {known[0].unit}"
+        symbol = data.attrs["intensity"] if known is None else known[0].symbol
         constants.append(f"{symbol} = {level:g}{unit}")
     style.note(ax, ", ".join(constants))
 

@@ -39,7 +39,7 @@ ANGLES = LinearSegmentedColormap.from_list("angles", palette.ANGLES)
 """Largest angle of a block that stands, from 0 to the critical angle."""
 
 # In the heading of a figure of blocks that are not slender; a line of its own, clear of the note at the right.
-FULL_EQUATION = "\nfull equation"
+FULL_EQUATION = "full equation"
 # Lines outside the range in which they are valid.
 DOTTED = (0, (1, 1.5))
 
@@ -141,7 +141,9 @@ def block_title(ax: Axes, block: Block | None, *, full: bool = False) -> None:
     """Write the size of the block above the axes at the left, for a figure in SI units, and whether its equation is full."""
     if block is not None:
         instance("block", block, Block)
-        title(ax, f"block {block.size}{FULL_EQUATION * full}")
+        size, _, offset = block.size.partition(", ")
+        second = ", ".join(filter(None, (offset, FULL_EQUATION * full)))
+        title(ax, "\n".join(filter(None, (f"block {size}", second))))
 
 
 def note(ax: Axes, text: str) -> None:

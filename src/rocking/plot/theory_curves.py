@@ -76,12 +76,10 @@ def check(names: Iterable[str], axes: Iterable[str], attributes: Mapping[str, An
         "lie over a map of the amplitude and the period, frequency or restitution",
         f"{upward} and {across}",
     )
-    if names and "brace_angle" in attributes:
-        raise Refusal(
-            "curves",
-            "lie over a map of a block without braces",
-            f"brace_angle = {attributes['brace_angle']}",
-        )
+    others = [name for name in ("brace_angle", "critical_angle", "angle_ratio") if name in attributes]
+    if names and others:
+        got = f"{others[0]} = {attributes[others[0]]:.6g}"
+        raise Refusal("curves", "lie over a map of a slender, symmetric block without braces", got)
     return names
 
 

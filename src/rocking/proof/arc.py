@@ -25,14 +25,37 @@ class TooLong(Refused):
 
 
 class Balls(NamedTuple):
-    """Parameters of a slender block under a harmonic base motion."""
+    """Parameters of a slender block under a harmonic base motion.
+
+    With unequal sides they are those of the right side, and ``left`` has those of the other one, in its own units. There it moves
+    as a slender block: under a base acceleration smaller by the ratio of angles, in times longer by that of frequency parameters.
+    """
 
     amplitude: arb
     frequency: arb
     response: arb  # beta = A/(1 + frequency^2)
-    restitution: arb
+    restitution: arb  # of impacts that end an arc on the side
     brace_angle: arb | None
     brace_restitution: arb
+    angle: arb | int = 1  # unit of the angles of the side
+    rate: arb | int = 1  # ratio of frequency parameters
+    left: Balls | None = None  # None for equal sides
+
+    @property
+    def speed(self) -> arb | int:
+        """Unit of the speeds of the side."""
+        return self.angle * self.rate
+
+    def on(self, side: int) -> Balls:
+        """Return the parameters of a side."""
+        return self.left if side < 0 and self.left is not None else self
+
+
+def with_left(p: Balls, angle: arb, rate: arb, restitution: arb) -> Balls:
+    """Return the parameters of a block with unequal sides, from the ratios and the coefficient of its left side."""
+    amplitude, frequency = p.amplitude / angle, p.frequency / rate
+    response = amplitude / (1 + frequency * frequency)
+    return p._replace(left=Balls(amplitude, frequency, response, restitution, None, arb(1), angle, rate))
 
 
 def balls_of(system: System, widths: Mapping[str, float]) -> Balls:
@@ -49,7 +72,7 @@ def balls_of(system: System, widths: Mapping[str, float]) -> Balls:
     amplitude, frequency = number("amplitude", forcing.amplitude), number(name, value)
     if name == "period":
         frequency = 2 * arb.pi() / frequency
-    return Balls(
+    p = Balls(
         amplitude,
         frequency,
         amplitude / (1 + frequency * frequency),
@@ -57,6 +80,10 @@ def balls_of(system: System, widths: Mapping[str, float]) -> Balls:
         None if braces is None else number("brace_angle", braces.angle),
         arb(1) if braces is None else number("brace_restitution", braces.restitution),
     )
+    if (left := system.left) is None:
+        return p
+    ratios = number("angle_ratio", left.angle_ratio), number("frequency_ratio", left.frequency_ratio)
+    return with_left(p, *ratios, number("left_restitution", left.restitution))
 
 
 def hull(low: arb, high: arb) -> arb:

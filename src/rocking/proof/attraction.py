@@ -16,7 +16,7 @@ from flint import arb, arb_mat
 
 from rocking.model.orbit import Orbit
 from rocking.proof.arc import Balls, Refused, TooLong, above, below, largest, whole
-from rocking.proof.periodic import Enclosed
+from rocking.proof.periodic import Enclosed, check_equal
 from rocking.proof.sets import States, as_set, doubles, renewed, sets_on_sections, states_on_sections, turn
 from rocking.proof.trajectory import State
 
@@ -55,6 +55,7 @@ def norm(matrix: arb_mat) -> arb:
 def neighbourhood(orbit: Enclosed, result: Orbit) -> Neighbourhood:
     """Return a disc around a stable orbit, on its section, from which all motions converge to it."""
     p, phase, unit = orbit.p, arb(result.phase), arb_mat([[1, 0], [0, 1]])
+    check_equal(p)
     here = orbit.state(phase, result.period)
     at = States(here.side, phase, arb_mat([[here.angle], [here.velocity]]), unit, (arb(0), arb(0)))
     tangent = after_cycles(p, at, result.period)

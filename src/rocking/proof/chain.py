@@ -109,14 +109,15 @@ def links_of(p: Balls, chain: Chain, phases: list[arb]) -> list[ArcBounds] | Non
         if not later > phases[j]:
             return None
         ends = place(p, chain.kinds[j]), place(p, chain.kinds[after])
-        result.append(link(p, side, ends, (phases[j], later)))
+        result.append(link(p.on(side), side, ends, (phases[j], later)))
     return result
 
 
 def residuals(p: Balls, chain: Chain, links: list[ArcBounds]) -> arb_mat:
-    """Return the equations of the chain, a column."""
+    """Return the equations of the chain, a column, with the speeds of both sides in the same units."""
+    own = [p.on(side) for side in chain.sides]
     rows = [
-        [one.leaves + law(p, kind) * links[j - 1].arrives]
+        [own[j].speed * one.leaves + law(own[j - 1], kind) * (own[j - 1].speed * links[j - 1].arrives)]
         for j, (kind, one) in enumerate(zip(chain.kinds, links, strict=True))
     ]
     return arb_mat(rows)
@@ -126,11 +127,11 @@ def jacobian(p: Balls, chain: Chain, links: list[ArcBounds]) -> arb_mat:
     """Return the derivatives of the equations by the phases."""
     k = len(links)
     rows = [[arb(0)] * k for _ in range(k)]
-    for j, one in enumerate(links):
-        after = (j + 1) % k
-        kept = law(p, chain.kinds[after])
-        rows[j][j] += one.by[0]
-        rows[j][after] += one.by[1]
+    for j, (side, one) in enumerate(zip(chain.sides, links, strict=True)):
+        after, own = (j + 1) % k, p.on(side)
+        kept = law(own, chain.kinds[after]) * own.speed
+        rows[j][j] += own.speed * one.by[0]
+        rows[j][after] += own.speed * one.by[1]
         rows[after][j] += kept * one.by[2]
         rows[after][after] += kept * one.by[3]
     return arb_mat(rows)

@@ -62,14 +62,20 @@ def chain_of(orbit: Orbit) -> Chain:
 def monodromy(p: Balls, chain: Chain, links: list[ArcBounds]) -> arb_mat:
     """Return the derivative of the return map over the chain, in (u, u') just after the first event.
 
-    The saltation matrix of an event is [[-law, 0], [(u''+ + law u''-)/u'-, -law]].
+    The saltation matrix of an event is [[-law, 0], [(u''+ + law u''-)/u'-, -law]], between states in the units of their sides.
     """
     product = arb_mat([[1, 0], [0, 1]])
     for j, one in enumerate(links):
         after = (j + 1) % len(links)
-        kept = law(p, chain.kinds[after])
-        shear = (links[after].start + kept * one.end) / one.arrives
-        jump = arb_mat([[-kept, 0], [shear, -kept]])
+        own, new = p.on(chain.sides[j]), p.on(chain.sides[after])
+        kept, angle, speed = (
+            law(own, chain.kinds[after]),
+            own.angle / arb(new.angle),
+            own.speed / arb(new.speed),
+        )
+        bend = links[after].start * (new.speed * new.rate) + kept * (one.end * (own.speed * own.rate))
+        shear = bend * own.angle / (one.arrives * own.speed * new.speed)
+        jump = arb_mat([[-kept * angle, 0], [shear, -kept * speed]])
         product = jump * (arb_mat([[one.cosh, one.sinh], [one.sinh, one.cosh]]) * product)
     return product
 
@@ -77,8 +83,8 @@ def monodromy(p: Balls, chain: Chain, links: list[ArcBounds]) -> arb_mat:
 def determinant(p: Balls, chain: Chain) -> arb:
     """Return the determinant of the monodromy matrix: exact, because each event contributes the square of its coefficient."""
     total = arb(1)
-    for kind in chain.kinds:
-        total *= law(p, kind) ** 2
+    for j, kind in enumerate(chain.kinds):
+        total *= law(p.on(chain.sides[j - 1]), kind) ** 2
     return total
 
 
@@ -141,8 +147,15 @@ def next_release(p: Balls, state: State) -> int:
     raise Refused(f"the block does not rest within {MAX_EVENTS} events")
 
 
+def check_equal(p: Balls) -> None:
+    """Raise Refused for a block with unequal sides: of its orbits, those are proved whose impacts do not accumulate."""
+    if p.left is not None:
+        raise Refused("this is proved for a block with equal sides only")
+
+
 def turns_of_reset(p: Balls) -> int:
     """Return the half turns between two releases of the orbit that rests."""
+    check_equal(p)
     if not (0 < p.restitution < 1 and p.amplitude > 1):
         raise Refused("an orbit that rests is proved only for 0 < e < 1 and A > 1")
     return next_release(p, release(p, 0))
@@ -218,7 +231,7 @@ def enclosed(p: Balls, chain: Chain) -> Enclosed:
 def check_arcs(p: Balls, chain: Chain, links: list[ArcBounds]) -> None:
     """Raise Refused unless every arc leaves its first event, meets nothing on its way, and reaches its last event."""
     for j, (side, one) in enumerate(zip(chain.sides, links, strict=True)):
-        check_arc(p, side, (chain.kinds[j], chain.kinds[(j + 1) % len(links)]), one)
+        check_arc(p.on(side), side, (chain.kinds[j], chain.kinds[(j + 1) % len(links)]), one)
 
 
 def check_arc(p: Balls, side: int, kinds: tuple[int, int], one: ArcBounds) -> None:
@@ -238,6 +251,7 @@ def check_arc(p: Balls, side: int, kinds: tuple[int, int], one: ArcBounds) -> No
 
 def moves_between(p: Balls) -> None:
     """Raise Refused unless the motion 1 + beta cos psi, without any event, stays above the base and below the braces."""
+    check_equal(p)
     if not p.response < 1:
         raise Refused("the motion without events reaches the base, or may reach it")
     if p.brace_angle is not None and not 1 + p.response < p.brace_angle:

@@ -9,6 +9,7 @@ from typing import Any
 from rocking.model.orbit import Orbit
 from rocking.model.package import require_extra
 from rocking.model.proof import Proof
+from rocking.model.quantity import LEFT_QUANTITIES
 from rocking.model.system import System, check_start
 from rocking.model.validation import Statement, WrongType, instance, refuse_if, within
 from rocking.model.verdict import Verdict
@@ -66,7 +67,7 @@ def prove(subject: Orbit | Verdict, uncertain: Mapping[str, float] | None = None
     Notes
     -----
     Not proved: that a search has found all orbits, or that an attractor is chaotic. Not covered: sustained contact with a brace
-    and e = 0.
+    and e = 0. For an unsymmetric block the orbits with finitely many impacts, at least one, are covered, and no initial states.
 
     Examples
     --------
@@ -107,6 +108,7 @@ def _checked(orbit: Orbit, uncertain: Mapping[str, float] | None, verdict: Verdi
     check_provable(system)
     present = {system.periodic.given[0], "amplitude", "restitution"}
     present |= set() if system.braces is None else {"brace_angle", "brace_restitution"}
+    present |= set() if system.left is None else set(LEFT_QUANTITIES)
     for name, width in widths.items():
         refuse_if(
             name not in present, "uncertain", f"name parameters given: {', '.join(sorted(present))}", name

@@ -28,7 +28,7 @@ PARTS = 8
 
 
 class State(NamedTuple):
-    """State at an event, or at a start."""
+    """State at an event, or at a start, in the units of its side."""
 
     side: int
     phase: arb
@@ -60,7 +60,17 @@ def initial(p: Balls, phase: float, start: InitialState) -> State:
     here, angle, velocity = arb(phase), start.angle, start.velocity
     if angle != 0.0 or velocity != 0.0:
         side = 1 if (angle if angle != 0.0 else velocity) > 0 else -1
-        return State(side, here, arb(abs(angle)), arb(side * velocity), int(angle == 0.0), False)
+        own = p.on(side)
+        return State(
+            side,
+            here,
+            arb(abs(angle)) / own.angle,
+            side * velocity / arb(own.speed),
+            int(angle == 0.0),
+            False,
+        )
+    if p.left is not None:
+        raise Refused("a start at rest is followed for a block with equal sides only")
     push = p.amplitude * here.cos()
     if abs(push) > 1:
         return State(-1 if push > 0 else 1, here, arb(0), arb(0), 2, False)
@@ -84,8 +94,9 @@ def flight(p: Balls, state: State) -> Flight:
         raise Refused("the set of states may reach the base")
     if p.brace_angle is not None and not state.at_brace and not state.angle < p.brace_angle:
         raise Refused("the set of states may reach a brace")
-    arc = arc_from(p, state.side, state.phase, state.angle, state.velocity)
-    step = min(LONGEST, CYCLES * 6.283 / float(p.frequency))
+    own = p.on(state.side)
+    arc = arc_from(own, state.side, state.phase, state.angle, state.velocity)
+    step = min(LONGEST, CYCLES * 6.283 / float(own.frequency))
     searches = [(Search(arc, IMPACT), state.order)]
     if p.brace_angle is not None:
         searches.append((Search(arc, BRACE), int(state.at_brace)))
@@ -121,9 +132,11 @@ def flight_within(p: Balls, state: State, wide: Flight) -> Flight:
 
 def after_event(p: Balls, state: State, flown: Flight) -> State:
     """Return the state after the event that ends a flight."""
-    phase = state.phase + p.frequency * flown.time
-    speed = -law(p, flown.event) * flown.velocity
+    own, new = p.on(state.side), p.on(-state.side)
+    phase = state.phase + own.frequency * flown.time
+    speed = -law(own, flown.event) * flown.velocity
     if flown.event == IMPACT:
+        speed *= own.speed / arb(new.speed)
         if not speed > 0:
             raise Refused("the speed after an impact is not proved to be positive")
         return State(-state.side, phase, arb(0), speed, 1, False)

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
-from decimal import Decimal
 from typing import NamedTuple
 
-import numpy as np
-
 from rocking.model.text import counted, formatted
-from rocking.model.validation import RecordError
 from rocking.records.text_file import MAX_SAMPLES, NUMBER, Channel, TextFile
+from rocking.records.times import printed_times
 from rocking.records.units import (
     IN_BRACKETS,
     OTHER_TIMES,
@@ -23,10 +20,9 @@ from rocking.records.units import (
     titles,
     unit_of,
 )
+from rocking.records.written_numbers import ROW, in_plain_numbers, mixes_commas
 
-ROW = re.compile(rf"\s*+{NUMBER.pattern}(?:(?:\s*+[,;]\s*+|\s++){NUMBER.pattern})*+\s*+[,;]?\s*+", re.ASCII)
 COMMENT = re.compile(r"\s*(?:[#%!]|//|$)")
-DECIMAL_COMMA = re.compile(r"\s*+[-+]?\d+,\d+\s*+[;\s]\s*+[-+]?\d+,\d", re.ASCII)
 WORD = re.compile(r"[^\W_]+")
 TIME = {"t", "time", "times"}
 ACCELERATION = re.compile(r"acc(?:el(?:erations?)?)?|a", re.IGNORECASE)
@@ -38,9 +34,8 @@ DIRECTION = re.compile(
 """Word that names the direction of a component."""
 OTHER_QUANTITY = re.compile(r"(?:vel|disp)", re.IGNORECASE)
 HEADER_LINES = 100
-MAX_DIGITS = 17
-DRIFT = 1e-2
-"""Allowed deviation of a time, in steps, in addition to its rounding."""
+MOST_COLUMNS = 4
+"""Time and three components; lines of more numbers in general hold samples one after another."""
 
 
 class Title(NamedTuple):
@@ -57,11 +52,9 @@ def recognises(file: TextFile) -> bool:
 
 def unlike(file: TextFile) -> str:
     """Return what a text without readable columns has instead, with the line; empty for columns."""
+    file = in_plain_numbers(file)
     lines = file.lines[: HEADER_LINES + 1]
     first = _first_row(file)
-    comma = next((index for index, line in enumerate(lines) if DECIMAL_COMMA.match(line)), None)
-    if comma is not None:
-        return f", line {comma + 1}: numbers with a decimal point expected; got {formatted(lines[comma].strip())}"
     if first is None:
         row = next((index for index, line in enumerate(lines) if re.match(r"\s*[-+.]?\d", line)), None)
         if row is not None:
@@ -71,12 +64,18 @@ def unlike(file: TextFile) -> str:
     width = len(_parts(lines[first]))
     if width <= 2 or _heads(file, first, width):
         return ""
+    if mixes_commas(lines[first]):
+        rule = "commas separate the numbers and stand in them: put ; between the numbers"
+        return f", line {first + 1}: {rule}; got {formatted(lines[first].strip())}"
     rule = f"more than two need a line of {width} titles that begins with the time, such as time,NS,EW"
+    if width > MOST_COLUMNS:
+        rule = "for samples one after another, put a line with their number and the time step before them, such as 1560 0.02"
     return f", line {first + 1}: {width} numbers in a line; {rule}"
 
 
 def read(file: TextFile) -> list[Channel]:
     """Read the only channel, or one for each title."""
+    file = in_plain_numbers(file)
     first = _first_row(file)
     assert first is not None
     width = len(_parts(file.lines[first]))
@@ -88,12 +87,14 @@ def read(file: TextFile) -> list[Channel]:
         titled = _titles(file, first, width)
         header = [line for line in file.lines[:first] if len(cells(line)) != width]
     units = header_units(header)
-    step = None if width == 1 else _step(file, places, [row[0] for row in rows])
+    times = None if width == 1 else printed_times(file, places, [row[0] for row in rows])
     result = []
     for place, (name, unit) in enumerate(titled, width - len(titled)):
         samples = file.numbers(places, [row[place] for row in rows], "a sample")
         stated = units._replace(named=frozenset([unit])) if unit else units
-        result.append(Channel(samples, stated.only(), step, "text", component=name, header=stated))
+        result.append(
+            Channel(samples, stated.only(), None, "text", component=name, header=stated, times=times)
+        )
     return result
 
 
@@ -166,7 +167,8 @@ def _title(file: TextFile, place: int, cell: str, below: str) -> Title:
     elif not (below or bracket) and len(words) > 1 and unit_of(words[-1]) is not None:
         unit = unit_of(words.pop())
     names = [word for word in words if not ACCELERATION.fullmatch(word)]
-    if (_plain(below) and unit is None) or not all(map(DIRECTION.fullmatch, names)):
+    known = [DIRECTION.fullmatch(word) or (unit is not None and word in ("v", "V")) for word in names]
+    if (_plain(below) and unit is None) or not all(known):
         shape = "name directions and units of acceleration, such as time (s),NS (g),EW (g), and remove other columns"
         raise file.error(
             place,
@@ -203,55 +205,3 @@ def _check_titles(file: TextFile, first: int, width: int) -> None:
             )
         if width > 1 and {*OTHER_TIMES} & {result[0].lower(), *map(str.lower, WORD.findall(cells(line)[0]))}:
             raise file.error(index, f"times in s expected; the header gives {formatted(result[0])}")
-
-
-def _step(file: TextFile, places: list[int], texts: list[str]) -> float:
-    """Return the step of equidistant times, as the shortest decimal number that agrees with the printed times."""
-    if len(texts) < 2:
-        raise file.error(places[-1], "at least two times expected")
-    times = file.numbers(places, texts, "a time")
-    rounding = _rounding(texts)
-    step = float(times[-1] - times[0]) / (len(times) - 1)
-    if not step > 0:
-        raise file.error(places[-1], "the times must increase")
-    tolerance = np.minimum(2 * rounding + DRIFT * step, step / 5)
-    if (np.abs(times - times[0] - step * np.arange(len(times))) > tolerance).any():
-        raise _uneven(file, places, texts, times, tolerance)
-    allowed = float(rounding.max()) / (len(times) - 1)
-    shorter = (float(f"{step:.{digits}g}") for digits in range(1, MAX_DIGITS))
-    return next((value for value in shorter if abs(value - step) <= allowed), step)
-
-
-def _uneven(
-    file: TextFile, places: list[int], texts: list[str], times: np.ndarray, tolerance: np.ndarray
-) -> RecordError:
-    """Return the error of times that are not equidistant, with the first that differs from most."""
-    steps = np.diff(times)
-    most = float(np.median(steps))
-    rule = "the times are not equidistant"
-    uneven = np.abs(steps - most) > 2 * tolerance[1:]
-    if uneven.any():
-        at = int(np.argmax(uneven)) + 1
-        message = f"{texts[at]} s follows {texts[at - 1]} s, and most steps are {most:.6g} s"
-    else:
-        expected = times[0] + most * np.arange(len(times))
-        at = int(np.argmax(np.abs(times - expected) > tolerance))
-        message = f"{texts[at]} s where {expected[at]:.6g} s is expected, at a step of {most:.6g} s"
-    return file.error(places[at], f"{rule}: {message}")
-
-
-def _rounding(texts: list[str]) -> np.ndarray:
-    """Return half a unit of the last digit of each time.
-
-    Programs leave out the last zeros of a decimal number, but not of one with an exponent.
-    """
-    plain = [
-        len(text.partition(".")[2])
-        for text in texts
-        if text.isascii() and text.lstrip("+-").replace(".", "").isdigit()
-    ]
-    finest = 0.5 * 10.0 ** -max(plain, default=0)
-    if len(plain) == len(texts):
-        return np.full(len(texts), finest)
-    exponents = [int(Decimal(re.sub("[Dd]", "e", text)).as_tuple().exponent) for text in texts]
-    return np.array([0.5 * 10.0 ** min(exponent, 0) for exponent in exponents])

@@ -12,13 +12,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion, RecordFile, pga_doubt
+from rocking.model.changed_motion import STEPS
+from rocking.model.ground_motion import BASELINES, GroundMotion, RecordFile, pga_doubt
 from rocking.model.validation import RecordError, Refusal, one_of, warn_of_input, whole, within
-from rocking.records import columns, cosmos, csmip, esm, geonet, knet, obspy_streams, peer, smc
+from rocking.records import columns, cosmos, counted, csmip, esm, geonet, knet, obspy_streams, peer, smc
 from rocking.records.text_file import Channel, Content, TextFile
 from rocking.records.units import UNITS, given_unit, stated_once, unit_of_samples
 
-FORMATS: tuple[Any, ...] = (cosmos, smc, esm, geonet, knet, peer, csmip, columns)
+FORMATS: tuple[Any, ...] = (cosmos, smc, esm, geonet, knet, peer, csmip, counted, columns)
 """Readers in the order in which they are tried; any text of numbers has columns."""
 
 
@@ -58,6 +59,7 @@ def read_ground_motion(
     - PEER AT2, COSMOS V1 and V2, CSMIP/CDMG V1 and V2, USC V2, SMC;
     - K-NET and KiK-net ASCII, ESM ASCII, GeoNet V1A and V2A;
     - text with one column (acceleration), two (time, acceleration), or more under a line of titles such as time,NS,EW,UD;
+    - text with the number of samples and the time step before the samples, in lines of any length;
     - miniSEED, SAC and Kinemetrics files, if ObsPy is installed.
 
     A file has at most 300 MB, and a line of text at most 10,000 characters.
@@ -71,7 +73,8 @@ def read_ground_motion(
     units : {"m/s²", "cm/s²", "mm/s²", "g", "gal"}
         Unit of the samples, for a file that does not state it. Spellings such as "m/s2" are understood. Default: None.
     step : float
-        Time step in s, for a file that does not state it. Default: None.
+        Time step in s, for a file that does not state it. If a column holds the times, `step` decides among those that agree with
+        rounded times. At uneven times, the motion is that of straight lines between the samples, taken at this step. Default: None.
     baseline : {"none", "mean", "linear", "quadratic"}
         Polynomial that is subtracted, as for `GroundMotion`. Default: "none".
     name : str, optional
@@ -85,16 +88,17 @@ def read_ground_motion(
     Raises
     ------
     RecordError
-        If the file cannot be read, or if unit or step are stated twice or not at all, counting file and arguments.
+        If the file cannot be read, or if unit or step are stated twice or not at all, counting file and arguments. Also if `step`
+        contradicts equidistant times.
     TypeError, ValueError
         If an argument is of the wrong type or lies outside its range.
 
     Warns
     -----
     InputWarning
-        If the peak of the samples differs from the peak in the header: see `RecordFile.pga_agrees`. Also if the PGA is below 0.01
-        or above 50 m/s², or the step above 1 s: the unit is probably another. Also if the header names several units, or mentions
-        another unit than `units`.
+        If the step follows from coarsely rounded times, or if uneven times are resampled. If the peak of the samples differs from
+        the peak in the header: see `RecordFile.pga_agrees`. Also if the PGA is below 0.01 or above 50 m/s², or the step above 1 s:
+        the unit is probably another. Also if the header names several units, or mentions another unit than `units`.
 
     See Also
     --------
@@ -212,8 +216,13 @@ def _motion(source: _Source, number: int, settings: _Settings) -> tuple[GroundMo
     channel, several = source.channels[number - 1], len(source.channels) > 1
     place = _place(source, number)
     unit, messages = unit_of_samples(place, channel.unit, channel.header, settings.unit)
-    step = stated_once(place, "step", channel.step, settings.step, "its time step", "0.01")
-    samples = channel.samples * UNITS[unit]
+    raw, step, change = channel.samples, channel.step, ""
+    if channel.times is None:
+        step = stated_once(place, "step", step, settings.step, "its time step", "0.01")
+    else:
+        raw, step, change, doubt = channel.times.sampled(place, raw, settings.step)
+        messages += filter(None, [doubt])
+    samples = raw * UNITS[unit]
     name, component = (" ".join(text.split()) for text in (channel.name, channel.component))
     file = None
     if source.sha256 is not None:
@@ -224,8 +233,10 @@ def _motion(source: _Source, number: int, settings: _Settings) -> tuple[GroundMo
             ", ".join(filter(None, (f"channel {number} of {len(source.channels)}", component)))
             if several
             else "",
-            float(np.abs(samples).max()),
-            *(channel.peak or ()),
+            float(np.abs(channel.samples).max()) * UNITS[unit],
+            header_pga=channel.peak.size if channel.peak else None,
+            header_rounding=channel.peak.rounding if channel.peak else 0.0,
+            station=name,
         )
     try:
         motion = GroundMotion(
@@ -235,6 +246,7 @@ def _motion(source: _Source, number: int, settings: _Settings) -> tuple[GroundMo
             component=component,
             baseline=settings.baseline,
             file=file,
+            changes=[change] if change else (),
         )
     except ValueError as error:
         raise RecordError(f"{place}: {error}") from error

@@ -17,15 +17,18 @@ from attrs import evolve
 from rocking.model.files import resolve_path
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.record_set import RecordSet
+from rocking.model.stations import RULES, stations
 from rocking.model.text import counted, formatted, listed
-from rocking.model.validation import RecordError, Refusal, WrongType, members, warn_of_input
+from rocking.model.validation import RecordError, Refusal, WrongType, members, one_of, warn_of_input
 from rocking.records.read import read_ground_motion, read_ground_motions
-from rocking.records.text_file import TEXTS, Content, TextFile
+from rocking.records.text_file import TEXTS, Content, TextFile, decoded
 
 FILE = "file"
 OWN = (FILE, "channel", "scale", "units", "step", "name")
 """Columns with a meaning of their own. Each other column holds a number per row."""
 DELIMITERS = ",;\t"
+HEAD = 10_000
+"""Bytes of a file in which its first line is sought."""
 
 
 class Row(NamedTuple):
@@ -48,14 +51,15 @@ def is_table(path: Path) -> bool:
     if not path.is_file():
         return False
     with path.open("rb") as file:
-        first = file.readline(10_000).decode("utf-8-sig", "replace")
-    return _delimiter(first) is not None
+        first = decoded(file.read(HEAD)) or ""
+    return _delimiter(first.partition("\n")[0]) is not None
 
 
 def rows(path: Path) -> list[Row]:
     """Return the rows of a table; `RecordError` with the line of the first wrong cell."""
     text = TextFile(Content(path))
-    lines = csv.reader(text.lines, delimiter=_delimiter(text.lines[0]) or ",")
+    delimiter = _delimiter(text.lines[0]) or ","
+    lines = csv.reader(text.lines, delimiter=delimiter)
     heads = [cell.strip() for cell in next(_cells(lines, text.name))]
     heads = [head.lower() if head.lower() in OWN else head for head in heads]
     for number, head in enumerate(heads):
@@ -74,6 +78,10 @@ def rows(path: Path) -> list[Row]:
             values = dict.fromkeys(heads, "") | {
                 head: cell.strip() for head, cell in zip(heads, cells, strict=False)
             }
+            if delimiter != ",":  # that of a spreadsheet with decimal commas
+                values |= {
+                    head: re.sub(r"^([-+]?\d+),(\d+)$", r"\1.\2", cell) for head, cell in values.items()
+                }
             result.append(_row(place, path.parent, values))
     if not result:
         raise RecordError(f"{text.name}: the table has no rows")
@@ -146,8 +154,9 @@ def read_record_set(
     units: str | None = None,
     step: float | None = None,
     baseline: str = "none",
+    component: str = "all",
 ) -> RecordSet:
-    """Read a folder, a table or a list of record files: all channels of each but the vertical ones.
+    """Read a folder, a table or a list of record files: all channels of each but the vertical ones, or one of each station.
 
     A motion is named by its file and, in a file with several channels, by its component. A vertical channel is left out, because
     the base of a block moves horizontally; a table that names its number in the column `channel` keeps it.
@@ -165,6 +174,8 @@ def read_record_set(
           becomes one of `RecordSet.columns`. An empty cell there is NaN.
     units, step, baseline
         As for `read_ground_motion`, for all files. In a table, a cell takes precedence.
+    component : {"all", "first", "larger"}
+        Horizontal components of each station: all of them, or one by a rule, as `RecordSet.one_per_station`. Default: "all".
 
     Returns
     -------
@@ -206,29 +217,25 @@ def read_record_set(
     (('a.txt', 'b.txt'), [3.0, 2.0], [6.5, 7.1])
     """
     values = {"units": units, "step": step, "baseline": baseline}
+    one_of("component", component, ("all", *RULES))
     if isinstance(source, str | os.PathLike):
         path = Path(source)
         resolve_path("source", path)
         if path.is_dir():
-            return _set(_of_files(_folder(path), values, _folder_remedy(path)), path.name)
+            return _set(_of_files(_folder(path), values, _folder_remedy(path)), component, path.name)
         if is_table(path):
-            return _of_table(path, values)
-        return _set(_of_files([path], values), path.name)
+            return _of_table(path, values, component)
+        return _set(_of_files([path], values), component, path.name)
     paths = [_path(each) for each in members("source", source, ALLOWED)]
     if not paths:
         raise Refusal("source", "name one record file at least", paths)
-    return _set(_of_files(paths, values), "source")
-
-
-_Station = tuple[str, float, int]
-"""Name in the header, step and number of samples: in general the same for all components of a station."""
+    return _set(_of_files(paths, values), component, "source")
 
 
 class _Member(NamedTuple):
     """Motion of a set, named."""
 
     motion: GroundMotion
-    station: _Station
     numbers: Mapping[str, float]
     chosen: bool
     """True if a table names the channel."""
@@ -298,12 +305,11 @@ def _members(
         if len(motions) > 1 and not (component and several[component] == 1):
             component = ", ".join(filter(None, (component, f"channel {number}")))
         named = evolve(motion, name=name, component=component)
-        station = (motion.name, motion.step, motion.times.size)
-        result.append(_Member(named, station, numbers or {}, chosen=chosen))
+        result.append(_Member(named, numbers or {}, chosen=chosen))
     return result
 
 
-def _of_table(path: Path, values: dict[str, Any]) -> RecordSet:
+def _of_table(path: Path, values: dict[str, Any], component: str) -> RecordSet:
     table = rows(path)
     names = Counter(row.path.name for row in table)
     result: list[_Member] = []
@@ -326,13 +332,20 @@ def _of_table(path: Path, values: dict[str, Any]) -> RecordSet:
             else f"{row.path.name}, channel {row.channel}"
         )
         result += _members(motions, row.name or plain, row.numbers, chosen=row.channel is not None)
-    return _set(result, path.name, f"{path.name}: ", "give distinct names in the column 'name'")
+    return _set(result, component, path.name, f"{path.name}: ", "give distinct names in the column 'name'")
 
 
 def _set(
-    result: Sequence[_Member], source: str, place: str = "", remedy: str = "name each file once"
+    result: Sequence[_Member],
+    component: str,
+    source: str,
+    place: str = "",
+    remedy: str = "name each file once",
 ) -> RecordSet:
-    """Return the set, without vertical channels that nobody chose; `RecordError` if two motions have the same name."""
+    """Return the set by the rule of its components, without vertical channels that nobody chose.
+
+    `RecordError` if two motions have the same name.
+    """
     kept = [each for each in result if each.chosen or not each.motion.vertical]
     left_out = [each.label for each in result if each.motion.vertical and not each.chosen]
     if not kept:
@@ -343,29 +356,28 @@ def _set(
         raise RecordError(f"{place}{label} occurs {count} times; {remedy}")
     if left_out:
         warn_of_input(f"{source}: {counted(len(left_out), 'vertical channel')} left out: {listed(left_out)}")
-    _warn_of_stations(kept, source)
     records = RecordSet(
         [each.motion for each in kept],
         {name: [each.numbers[name] for each in kept] for name in kept[0].numbers},
     )
+    if component == "all":
+        _warn_of_stations(records, source)
+    else:
+        records = records.one_per_station(component)
     if records.vertical:
         warn_of_input(vertical_sentence(records.vertical))
     return records
 
 
-def _warn_of_stations(result: Sequence[_Member], source: str) -> None:
+def _warn_of_stations(records: RecordSet, source: str) -> None:
     """Warn of stations with several horizontal components."""
-    of_file: dict[str, _Station] = {}
-    stations: dict[_Station, dict[str, str]] = {}
-    for each in result:
-        if not each.motion.vertical:
-            assert each.motion.file is not None
-            station = of_file.setdefault(each.motion.file.sha256, each.station)
-            stations.setdefault(station, {})[each.motion.component] = each.label
-    several = [list(labels.values()) for labels in stations.values() if len(labels) > 1]
+    several = [places for places in stations(records.motions) if len(places) > 1]
     if several:
         which = f"several horizontal components of {counted(len(several), 'station')}"
+        first = listed([records.names[place] for place in several[0]])
         doubt = (
             "their results depend on each other, and intervals that take them as independent are too narrow"
         )
-        warn_of_input(f"{source}: {which} ({listed(several[0])}): {doubt}")
+        warn_of_input(
+            f"{source}: {which} ({first}): {doubt}; take one of each, for example component='first'"
+        )

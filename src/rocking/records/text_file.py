@@ -7,15 +7,20 @@ import math
 import os
 import re
 import stat
+from contextlib import suppress
+from copy import copy
 from decimal import Decimal
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from rocking.model.text import both_ends, counted, formatted
 from rocking.model.validation import RecordError, WrongType
 from rocking.records.units import UNITS, HeaderUnits, unit_of
+
+if TYPE_CHECKING:
+    from rocking.records.times import PrintedTimes
 
 TEXTS = "formats: PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, text in columns"
 
@@ -42,6 +47,8 @@ class Channel(NamedTuple):
     peak: Peak | None = None
     header: HeaderUnits = HeaderUnits()
     """What a header without a fixed place for the unit states about it."""
+    times: PrintedTimes | None = None
+    """Times of the samples, which state the step, if the file has a column of them."""
 
 
 MAX_BYTES = 300_000_000
@@ -99,8 +106,46 @@ class Content:
 
     @property
     def is_text(self) -> bool:
-        """True if no byte is 0, as in every text."""
-        return b"\0" not in self.data
+        """True unless a byte is 0 where no text has one."""
+        return bool(encodings(self.data))
+
+
+MARKS = {
+    b"\xff\xfe\0\0": "utf-32",
+    b"\0\0\xfe\xff": "utf-32",
+    b"\xff\xfe": "utf-16",
+    b"\xfe\xff": "utf-16",
+}
+"""First bytes of texts of two or four bytes a character."""
+MOSTLY = 0.9
+"""Least share of characters of UTF-16 without a mark that are those of Latin-1, whose other byte is 0."""
+
+
+def encodings(data: bytes) -> tuple[str, ...]:
+    """Return the encodings of a text that are to be tried, in their order; none for binary data.
+
+    Examples
+    --------
+    >>> encodings("0,5".encode("utf-16-le")), encodings("g²".encode("latin-1")), encodings(bytes(4))
+    (('utf-16-le',), ('utf-8-sig', 'latin-1'), ())
+    """
+    if b"\0" not in data:
+        return ("utf-8-sig", "latin-1")
+    for mark, code in MARKS.items():
+        if data.startswith(mark):
+            return (code,)
+    first, second = data[::2].count(0), data[1::2].count(0)
+    if min(first, second) == 0 and max(first, second) > MOSTLY * (len(data) // 2):
+        return ("utf-16-le",) if second else ("utf-16-be",)
+    return ()
+
+
+def decoded(data: bytes) -> str | None:
+    """Return data as text; None if they are none, or are not complete."""
+    for each in encodings(data):
+        with suppress(UnicodeDecodeError):
+            return data.decode(each)
+    return None
 
 
 # No expression here or in a reader may try a blank or a digit in two places: see MAX_LINE.
@@ -120,18 +165,23 @@ class TextFile:
 
     def __init__(self, content: Content) -> None:
         self.name = " ".join(content.name.split())
-        data = content.data.rstrip(b"\x1a\r\n\t ")  # DOS ends a text by the byte 1a
-        try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = data.decode("latin-1")
+        text = decoded(content.data)
+        if text is None:
+            raise RecordError(f"{self.name}: no text, or an incomplete one")
+        text = text.rstrip("\x1a\r\n\t ")  # DOS ends a text by the byte 1a
         if not text.strip():
             raise RecordError(f"{self.name}: the file is empty")
-        self.lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        self.lines = text.replace("\r\n", "\n").replace("\r", "\n").replace("−", "-").split("\n")
         for index, line in enumerate(self.lines):
             if len(line) > MAX_LINE:
                 rule = f"a line must have at most {MAX_LINE:,} characters; got {len(line):,}"
                 raise self.error(index, f"{rule}; put each sample on a line of its own")
+
+    def with_lines(self, lines: list[str]) -> TextFile:
+        """Return the file with other lines in the same places."""
+        result = copy(self)
+        result.lines = lines
+        return result
 
     def error(self, line: int, what: str) -> RecordError:
         """Return the error for a line."""

@@ -122,7 +122,7 @@ def _errors(departures: NDArray[np.float64]) -> NDArray[np.float64]:
     errors = []
     size = 1
     while len(departures) >= MIN_GROUPS * size:
-        errors.append(averages.error_of_sum_plain(departures, size))
+        errors.append(averages.error_of_sum(departures, size))
         size *= 2
     return np.array(errors)
 

@@ -12,8 +12,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from rocking.kernels import batch
-from rocking.kernels.classify import results
-from rocking.kernels.classify import verdict_record as kernel
+from rocking.kernels.classify import verdict as kernel
 from rocking.model.orbit import Orbit
 from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import TooManyEvents, refuse_if, whole
@@ -34,7 +33,7 @@ from rocking.response.rotation_number import (
 )
 
 
-def transient_of(judged: kernel.Judgement | results.ResultArrays) -> Any:
+def transient_of(judged: kernel.Judgement | kernel.ResultArrays) -> Any:
     """Return the cycles after which a response was reached at the latest, as an integer or an array; -1 if unknown.
 
     A block that never moves has no transient. The decision sequence itself gives the cycle of the checkpoint at which rest was

@@ -8,15 +8,15 @@ from decimal import ROUND_UP, Context, Decimal
 
 from attrs import field, frozen
 
-from rocking.kernels.classify import decision_cascade, leg, periodicity, quasi_periodicity, reset, workspace
-from rocking.kernels.classify import verdict_record as kernel
-from rocking.kernels.orbits import fixed_point
+from rocking.kernels.classify import cascade, exponent, periodicity, resets, torus
+from rocking.kernels.classify import verdict as kernel
+from rocking.kernels.orbits import return_map
 from rocking.model.system import System
 from rocking.model.text import counted, plus_minus
 from rocking.model.verdict import Criterion, Evidence
 from rocking.motion.motion import Motion
 
-MAX_GROWTH = f"{math.exp(reset.MAX_STRAIN):.0e}".replace("e+0", "e")
+MAX_GROWTH = f"{math.exp(resets.MAX_STRAIN):.0e}".replace("e+0", "e")
 
 OTHERWISE = "the motion before is so sensitive that different rounding leads to a different end"
 
@@ -112,7 +112,7 @@ def _orbit(case: Case) -> Statement:
         f"{_below_one(math.hypot(judged.real, judged.imaginary))} in modulus; {reached}"
     )
     tolerances = {
-        "residual": fixed_point.RESIDUAL,
+        "residual": return_map.RESIDUAL,
         "approach": periodicity.NONLINEAR,
         "distance": periodicity.ROUNDING,
         "second order": 1.0,
@@ -123,13 +123,13 @@ def _orbit(case: Case) -> Statement:
 def _neutral_orbit(case: Case) -> Statement:
     what = (
         f"neutrally stable {_periodic(case.judgement)}: no event dissipates energy; the motion returns to within "
-        f"{decision_cascade.UNMOVED:.0e} of an earlier state, and its averages over both halves of the run agree to "
-        f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more; nearby motions stay near but need not converge"
+        f"{cascade.UNMOVED:.0e} of an earlier state, and its averages over both halves of the run agree to "
+        f"{torus.ENOUGH_DIGITS:.0f} digits or more; nearby motions stay near but need not converge"
     )
     tolerances = {
-        "residual": fixed_point.RESIDUAL,
-        "distance": decision_cascade.UNMOVED,
-        "digits": quasi_periodicity.ENOUGH_DIGITS,
+        "residual": return_map.RESIDUAL,
+        "distance": cascade.UNMOVED,
+        "digits": torus.ENOUGH_DIGITS,
     }
     return Statement(what, f"verified, {_when(case)}", tolerances)
 
@@ -137,15 +137,15 @@ def _neutral_orbit(case: Case) -> Statement:
 def _torus(case: Case) -> Statement:
     what = (
         f"motion on an invariant torus: no event dissipates energy; averages over both halves of the run agree to "
-        f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more for the times between impacts and to "
+        f"{torus.ENOUGH_DIGITS:.0f} digits or more for the times between impacts and to "
         f"{math.floor(case.judgement.digits)} for the squared speeds; nearby trajectories diverge no faster than linearly; and "
-        f"the motion does not return to within {decision_cascade.UNMOVED:.0e} in {case.max_period} cycles"
+        f"the motion does not return to within {cascade.UNMOVED:.0e} in {case.max_period} cycles"
     )
     tolerances = {
-        "flight digits": quasi_periodicity.ENOUGH_DIGITS,
-        "speed digits": quasi_periodicity.CHAOTIC_DIGITS,
-        "log shear": quasi_periodicity.SHEAR,
-        f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
+        "flight digits": torus.ENOUGH_DIGITS,
+        "speed digits": torus.CHAOTIC_DIGITS,
+        "log shear": torus.SHEAR,
+        f"log shear below {torus.SHEARED_FLIGHTS} flights": torus.SMALL_SHEAR,
     }
     remark = f"statistical, over {spent(case)}; a motion that stays near a torus for long may leave it later"
     return Statement(what, remark, tolerances)
@@ -158,7 +158,7 @@ def _exponent(case: Case) -> Statement:
         f"{judged.exponent / judged.error:.0f} standard errors above zero"
     )
     remark = f"statistical, over {spent(case)}; a longer run may show that the chaos is transient"
-    return Statement(what, remark, {"standard errors": kernel.CLEARLY})
+    return Statement(what, remark, {"standard errors": exponent.CLEARLY})
 
 
 def _little_growth(case: Case) -> Statement:
@@ -167,25 +167,23 @@ def _little_growth(case: Case) -> Statement:
         f"{_seems_chaotic(case)}, but over the second half of the run perturbations grew only by a factor of e^{grown:.3g}, "
         "as they also do while a motion leaves an unstable orbit"
     )
-    return Statement(what, _longer(case), {"log growth": kernel.FAR})
+    return Statement(what, _longer(case), {"log growth": exponent.FAR})
 
 
 def _correlated(case: Case) -> Statement:
     what = (
-        f"{_seems_chaotic(case)}, but the {workspace.BATCHES} batches behind this error are correlated: merging them in fours "
-        f"increases its variance more than {kernel.MAX_CORRELATION:.0f}-fold"
+        f"{_seems_chaotic(case)}, but the {exponent.BATCHES} batches behind this error are correlated: merging them in fours "
+        f"increases its variance more than {exponent.MAX_CORRELATION:.0f}-fold"
     )
-    return Statement(what, _longer(case), {"correlation": kernel.MAX_CORRELATION})
+    return Statement(what, _longer(case), {"correlation": exponent.MAX_CORRELATION})
 
 
 def _lingering(case: Case) -> Statement:
     what = (
-        f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {decision_cascade.NEAR:.0e} of an unstable "
+        f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {cascade.NEAR:.0e} of an unstable "
         "orbit"
     )
-    return Statement(
-        what, f"{_longer(case)} or change the initial state", {"distance": decision_cascade.NEAR}
-    )
+    return Statement(what, f"{_longer(case)} or change the initial state", {"distance": cascade.NEAR})
 
 
 def _unresolved_reset(case: Case) -> Statement:
@@ -199,7 +197,7 @@ def _unresolved_reset(case: Case) -> Statement:
 
 
 def _unwatched(case: Case) -> Statement:
-    needed = kernel.CHAOS_NEEDS if case.system.braces is None else kernel.CHAOS_NEEDS_WITH_BRACES
+    needed = exponent.CHAOS_NEEDS if case.system.braces is None else exponent.CHAOS_NEEDS_WITH_BRACES
     return Statement(
         f"{_no_orbit(case)}, and {spent(case)} are too few to call the response chaotic",
         f"none, after {spent(case)}; increase max_cycles to {needed:,} or more",
@@ -213,22 +211,22 @@ def _indistinct(case: Case) -> Statement:
             f"{_no_orbit(case)}, and the largest Lyapunov exponent has no reliable error estimate", longer
         )
     result = f"{_no_orbit(case)}, and the largest Lyapunov exponent, {plus_minus(judged.exponent, judged.error)} per τ, is"
-    if judged.exponent < -kernel.CLEARLY * judged.error:
+    if judged.exponent < -exponent.CLEARLY * judged.error:
         longer = f"none, after {spent(case)}; increase max_period above {case.max_period} or max_cycles above {case.max_cycles:,}"
         return Statement(f"{result} negative", longer)
-    return Statement(f"{result} less than {kernel.CLEARLY:.0f} standard errors above zero", longer)
+    return Statement(f"{result} less than {exponent.CLEARLY:.0f} standard errors above zero", longer)
 
 
 def _between(case: Case) -> Statement:
     what = (
         f"no event dissipates energy, and averages over both halves of the run agree to {case.judgement.digits:.1f} digits: more "
-        f"than in chaotic motion (below {quasi_periodicity.CHAOTIC_DIGITS:.0f}), but not all conditions for a torus are met"
+        f"than in chaotic motion (below {torus.CHAOTIC_DIGITS:.0f}), but not all conditions for a torus are met"
     )
     return Statement(what, _longer(case))
 
 
 def _crowded(case: Case) -> Statement:
-    what = f"more than {leg.MAX_EVENTS_A_CYCLE} impacts per cycle (chattering with little energy loss); simulation stopped"
+    what = f"more than {cascade.MAX_EVENTS_A_CYCLE} impacts per cycle (chattering with little energy loss); simulation stopped"
     return Statement(
         what,
         f"none, after {spent(case)}; increase the initial speed or reduce the coefficient of restitution",
@@ -237,7 +235,7 @@ def _crowded(case: Case) -> Statement:
 
 def _standing(case: Case) -> Statement:
     what = (
-        f"the motion remains on an unstable orbit; it returns to within {decision_cascade.UNMOVED:.0e} of an earlier state, "
+        f"the motion remains on an unstable orbit; it returns to within {cascade.UNMOVED:.0e} of an earlier state, "
         f"and perturbations grow at a rate of {case.judgement.exponent:.4g} per τ"
     )
     return Statement(what, f"none, after {spent(case)}; change the initial state slightly")
@@ -275,8 +273,8 @@ def _longer(case: Case) -> str:
 
 def _measured_time(case: Case) -> float:
     """Time, in τ, over which the exponent is measured: the batches of the second half of the run."""
-    batch = case.max_cycles // (2 * workspace.BATCHES)
-    return workspace.BATCHES * batch * case.system.periodic.period
+    batch = case.max_cycles // (2 * exponent.BATCHES)
+    return exponent.BATCHES * batch * case.system.periodic.period
 
 
 def _seems_chaotic(case: Case) -> str:

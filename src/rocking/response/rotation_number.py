@@ -48,8 +48,8 @@ def average(values: Array) -> tuple[float, int]:
     """
     values = np.ascontiguousarray(values)
     weights = np.empty((len(values) + 1) // 2)
-    digits = math.floor(averages.digits_of_agreement_plain(values, weights))
-    return averages.weighted_mean_plain(values, weights), min(max(digits, 0), MAX_DIGITS)
+    mean, digits = averages.mean_and_digits(values, weights)
+    return mean, min(max(math.floor(digits), 0), MAX_DIGITS)
 
 
 def fraction_of(value: float, digits: int) -> Fraction | None:
@@ -71,8 +71,8 @@ def deviations(phases: Array, speeds: Array) -> Array | None:
     weights = np.empty((len(speeds) + 1) // 2)
     points = np.column_stack(
         [
-            speeds - averages.weighted_mean_plain(speeds, weights),
-            offsets - averages.weighted_mean_plain(offsets, weights),
+            speeds - averages.mean_and_digits(speeds, weights)[0],
+            offsets - averages.mean_and_digits(offsets, weights)[0],
         ]
     )
     sizes = np.abs(points).max(axis=0)
@@ -302,7 +302,7 @@ def strikes_of(motion: Motion) -> tuple[str, Array, Array]:
         )
     if np.isin(kinds, ("rest", "lean")).any() or motion.outcome is Outcome.AT_REST:
         raise ValueError("a rotation number requires a motion without dissipation; the block comes to rest")
-    if motion.impacts and system.restitution < 1.0:
+    if motion.impacts and not system.lossless:
         raise Refusal("restitution", "be 1 for a rotation number (no dissipation)", system.restitution)
     if motion.brace_hits and system.braces is not None and system.braces.restitution < 1.0:
         raise Refusal(

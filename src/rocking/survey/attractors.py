@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 
 from rocking.kernels import batch
-from rocking.kernels.classify import attractor_anchor as kernel
-from rocking.kernels.classify import verdict_record
+from rocking.kernels.classify import verdict
 from rocking.model.survey_results import Attractor
 from rocking.model.system import NO_BRACES, State, System, quantities, system_of
 from rocking.model.verdict import Kind, Verdict
@@ -31,7 +31,7 @@ ANCHORS = tuple(
         {
             "long_name": f"{what} of the representative state of the attractor in units of {unit}",
             "units": "1",
-            "comment": f"at {kernel.SECTION:.6g} of a forcing cycle; NaN: neither periodic nor at rest",
+            "comment": f"at {batch.SECTION:.6g} of a forcing cycle; NaN: neither periodic nor at rest",
         },
     )
     for what, unit in (("angle", "theta_cr"), ("velocity", "alpha theta_cr"))
@@ -97,9 +97,7 @@ def attractor_of_each(points: Points, options: Mapping[str, int], stop: np.ndarr
         return None
     states = anchors(points, arrays)
     # an undamped system has no attractor, and its mean angle does not converge in any practical time
-    means = averages(
-        points, (arrays.kind == verdict_record.CHAOTIC) & ~points.lossless, options["max_cycles"], stop
-    )
+    means = averages(points, (arrays.kind == verdict.CHAOTIC) & ~points.lossless, options["max_cycles"], stop)
     if stop[0]:
         return None
     answers = variables_of(arrays)
@@ -179,8 +177,9 @@ def pairs_of_equal_states(states: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
     """Return the states (n, 2) of an orbit on the section, beginning with its representative state."""
-    phase = system.periodic.phase + math.tau * kernel.SECTION
+    phase = system.periodic.phase + math.tau * batch.SECTION
     clocked = system_of(NO_BRACES | quantities(system) | {"phase": phase})
+    clocked = evolve(clocked, restitution_table=system.restitution_table)
     return np.asarray(simulate(clocked, State(*anchor), cycles=period, record="section").section()[:period])
 
 

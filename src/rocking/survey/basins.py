@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.kernels.classify import verdict_record as kernel
+from rocking.kernels.classify import verdict as kernel
 from rocking.model.quantity import ANGLE
 from rocking.model.share import Share, interval_variables, shares_of
 from rocking.model.survey_results import Attractor, BasinMap, SafeBasin
@@ -215,7 +215,7 @@ def safe_basin(
 
     For e > 0 and A* < A < √(1 + Ω²) the boundary of the overturning initial states is fractal (`horseshoe`).
     The safe fraction does not necessarily decrease
-    from there on. Both thresholds hold for a slender block without braces, and are NaN
+    from there on. Both thresholds hold for a slender, symmetric block without braces, and are NaN
     for any other.
 
     Parameters
@@ -282,7 +282,7 @@ def _summed_up(
     safe = shares_of(np.count_nonzero(kinds != kernel.OVERTURNS, axis=1), kinds.shape[1])
     period = spec.fixed.get("period") or 2.0 * np.pi / spec.fixed["frequency"]
     exact = first_order = np.nan
-    if "brace_angle" not in spec.fixed and not spec.full:
+    if spec.has_tangency:
         exact = heteroclinic_amplitude(period, spec.fixed["restitution"])
         first_order = melnikov_amplitude(period, spec.fixed["restitution"])
     meaning = "fraction of the initial states that do not overturn"

@@ -8,21 +8,22 @@ from itertools import pairwise, starmap
 
 import numpy as np
 
-from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.march import ending as ends
-from rocking.kernels.march import finite_runs, march
-from rocking.kernels.march import finite_runs as kernel
+from rocking.kernels import system as numbers
+from rocking.kernels.motion import finite_motion, march
 from rocking.model.forcing import SINES, PiecewiseLinear, Pulse
 from rocking.model.ground_motion import GroundMotion
+from rocking.model.quantity import LEFT_QUANTITIES
 from rocking.model.record_set import RecordSet
+from rocking.model.restitution import Scatter
 from rocking.model.verdict import Outcome
+from rocking.motion.march_loop import scatter_of
 from rocking.survey.measurement import Arrays, Measurement, Variable
-from rocking.survey.spec import Pulses, Runs, motion_spec
+from rocking.survey.spec import Left, Pulses, Runs, motion_spec
 
-METHOD = 7
+METHOD = 9
 """Version of the method; a change of the results increases it."""
 OUTCOMES = tuple(Outcome)
-UNDECIDED, CERTIFIED, NOT_ASSESSED = range(3)
+UNDECIDED, CERTIFIED = range(2)
 """Codes of the effect of rounding errors on an outcome."""
 OVERTURNED = OUTCOMES.index(Outcome.OVERTURNED)
 CODES = {
@@ -47,8 +48,8 @@ VARIABLES = (
         255,
         {
             "long_name": "whether no rounding error can have changed the outcome",
-            "flag_values": np.arange(3, dtype=np.uint8),
-            "flag_meanings": "undecided certified not-assessed",
+            "flag_values": np.arange(2, dtype=np.uint8),
+            "flag_meanings": "undecided certified",
         },
     ),
     Variable(
@@ -90,10 +91,22 @@ def ending(title: str, *, with_peak: bool = True) -> Measurement:
 
 def endings_of_runs(runs: Runs, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Follow runs to their ends; None if another thread sets `stop`. Neighbours with the same record and α share tables."""
+    if runs.worse:
+        ways = [
+            endings_of_runs(runs._replace(factor=sign * runs.factor, worse=False), options, stop)
+            for sign in (1.0, -1.0)
+        ]
+        return None if ways[0] is None or ways[1] is None else worse_of(ways[0], ways[1])
     with_peak = bool(options["with_peak"])
-    rows, inputs = np.empty(runs.record.size, ends.ENDING_ROW), np.empty(runs.record.size, kernel.RUN_ROW)
+    rows, inputs = (
+        np.empty(runs.record.size, finite_motion.ENDING_ROW),
+        np.empty(runs.record.size, finite_motion.RUN_ROW),
+    )
     inputs["restitution"], inputs["angle"] = runs.restitution, runs.angle
     inputs["critical_angle"] = runs.slenderness
+    give_sides(inputs, runs.left)
+    inputs["speed_unit"], inputs["stream"] = runs.speed_unit, runs.stream
+    law, scatter = np.array(runs.law.rows).reshape(-1, 2), runs.law.scatter
     for part in runs_of_equal_tables(runs):
         motion, alpha = (
             runs.motions[int(runs.record[part.start])],
@@ -101,18 +114,58 @@ def endings_of_runs(runs: Runs, options: Mapping[str, int], stop: np.ndarray) ->
         )
         base = motion.normalised(1.0, alpha)
         inputs["scale"][part] = base.scale * runs.factor[part]
-        p = sampled(base, full=runs.full)
-        if not kernel.run_batch(p, inputs[part], with_peak, rows[part], stop):
+        p = sampled(base, full=runs.full, left=runs.left, place=part.start, law=law, scatter=scatter)
+        if not finite_motion.run_batch(p, inputs[part], with_peak, rows[part], stop):
             return None
-    return answers(rows, with_peak=with_peak, assessed=not runs.full)
+    return answers(rows, with_peak=with_peak)
 
 
-def sampled(base: PiecewiseLinear, *, full: bool) -> numbers.AnySampledParameters:
-    """Return parameters with the tables of a base motion, for runs of any blocks of one kind."""
+def worse_of(one: Arrays, other: Arrays) -> Arrays:
+    """Return of two runs at each point the one that is worse for the block: it alone overturns, or it has the larger peak.
+
+    Where neither overturns, the outcome is certified only if both are.
+    """
+    fell, fell_too = one["outcome"] == OVERTURNED, other["outcome"] == OVERTURNED
+    taken = (fell_too & ~fell) | (other["peak"] > one["peak"])
+    result = {name: np.where(taken, other[name], values) for name, values in one.items()}
+    stands = ~(fell | fell_too)
+    both = np.minimum(one["certified"], other["certified"])
+    result["certified"] = np.where(stands, both, result["certified"]).astype(np.uint8)
+    return result
+
+
+def give_sides(rows: np.ndarray, left: Left) -> None:
+    """Give rows of runs or pulses (n,) the left sides of their blocks."""
+    for name in LEFT_QUANTITIES:
+        rows[name] = getattr(left, name)
+
+
+def sampled(
+    base: PiecewiseLinear,
+    *,
+    full: bool,
+    left: Left,
+    place: int = 0,
+    law: np.ndarray = numbers.NO_LAW,
+    scatter: Scatter | None = None,
+) -> numbers.AnySampledParameters:
+    """Return parameters with the tables of a base motion, for runs of any blocks of one kind and law of restitution.
+
+    Unsymmetric blocks have the ratio of the frequency parameters of that at a place: their left sides have tables of their own.
+    """
     tables, length = numbers.tables_of(base.values, base.step), numbers.CYCLE * base.step
+    block = _any_block(full=full, left=left, place=place, law=law, scatter=scatter)
+    return numbers.sampled_system(block, tables, 1.0, length)
+
+
+def _any_block(
+    *, full: bool, left: Left, law: np.ndarray, scatter: Scatter | None, place: int = 0
+) -> numbers.Block:
     if full:
-        return numbers.full_sampled_parameters(numbers.full_block(1.0, 1.0), tables, 1.0, length)
-    return numbers.sampled_parameters(tables, 1.0, length, 1.0)
+        return numbers.full_block(1.0, 1.0, law=law, scatter=scatter_of(scatter))
+    if not left.unequal:
+        return numbers.slender_block(1.0)
+    return numbers.slender_block(1.0, left=numbers.LeftSide(1.0, float(left.frequency_ratio[place]), 1.0))
 
 
 def runs_of_equal_tables(runs: Runs) -> Iterator[slice]:
@@ -120,12 +173,13 @@ def runs_of_equal_tables(runs: Runs) -> Iterator[slice]:
     if not runs.record.size:
         return
     differs = (np.diff(runs.record) != 0) | (np.diff(runs.frequency_parameter) != 0)
+    differs |= np.diff(runs.left.frequency_ratio) != 0
     edges = [0, *(np.flatnonzero(differs) + 1).tolist(), runs.record.size]
     yield from starmap(slice, pairwise(edges))
 
 
-def answers(rows: np.ndarray, *, with_peak: bool, assessed: bool) -> Arrays:
-    """Return the variables of the rows of the kernel; `assessed` says whether it considers rounding errors."""
+def answers(rows: np.ndarray, *, with_peak: bool) -> Arrays:
+    """Return the variables of the rows of the kernel."""
     outcome = np.zeros(rows.size, np.uint8)
     for status, code in CODES.items():
         outcome[rows["status"] == status] = code
@@ -133,7 +187,7 @@ def answers(rows: np.ndarray, *, with_peak: bool, assessed: bool) -> Arrays:
     peak = np.where(outcome == OVERTURNED, math.inf, rows["peak"] if with_peak else math.nan)
     return {
         "outcome": outcome,
-        "certified": certified if assessed else np.full_like(certified, NOT_ASSESSED),
+        "certified": certified,
         "peak": peak,
         "margin": rows["margin"],
         "impacts_since_rest": rows["since_rest"].astype(np.int32),
@@ -148,44 +202,48 @@ def pulse_ending(title: str) -> Measurement:
 
 def endings_of_pulses(runs: Pulses, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Follow blocks at rest under pulses to their ends; None if another thread sets `stop`."""
-    rows = np.empty(runs.amplitude.size, ends.ENDING_ROW)
+    rows = np.empty(runs.amplitude.size, finite_motion.ENDING_ROW)
     done = _sines(runs, rows, stop) if runs.kind in SINES else _sampled(runs, rows, stop)
-    return answers(rows, with_peak=True, assessed=not runs.full) if done else None
+    return answers(rows, with_peak=True) if done else None
 
 
 def _sines(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
     """Follow pulses that are pieces of a cosine, with the rounding of `simulate`."""
     form = SINES[runs.kind]
-    pulses = np.empty(runs.amplitude.size, kernel.PULSE_ROW)
+    pulses = np.empty(runs.amplitude.size, finite_motion.PULSE_ROW)
     pulses["amplitude"], pulses["duration"] = runs.amplitude, runs.duration
     pulses["restitution"], pulses["critical_angle"] = runs.restitution, runs.critical_angle
+    give_sides(pulses, runs.left)
     pulses["frequency"], pulses["phase"] = (
         math.tau * form.turns / runs.duration,
         numbers.within_a_turn(form.phase),
     )
-    return kernel.run_pulses(a_pulse(full=runs.full), pulses, True, rows, stop)
+    kind = a_pulse(full=runs.full, left=runs.left, law=runs.law, scatter=runs.scatter)
+    return finite_motion.run_pulses(kind, pulses, True, rows, stop)
 
 
-def a_pulse(*, full: bool) -> numbers.AnyPulseParameters:
-    """Return parameters of any pulse, which give the kernel the kind of block."""
+def a_pulse(
+    *, full: bool, left: Left, law: np.ndarray = numbers.NO_LAW, scatter: Scatter | None = None
+) -> numbers.AnyPulseParameters:
+    """Return parameters of any pulse, which give the kernel the kind of block and its law of restitution."""
     pulse = {"amplitude": 1.0, "frequency": 1.0, "phase": 0.0, "duration": 1.0, "cycle_length": 1.0}
-    if full:
-        return numbers.full_pulse_parameters(**pulse, block=numbers.full_block(1.0, 1.0))
-    return numbers.pulse_parameters(**pulse, block=numbers.BlockParameters(1.0, math.inf, 1.0))
+    return numbers.pulse_system(_any_block(full=full, left=left, law=law, scatter=scatter), **pulse)
 
 
 def _sampled(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
     """Follow pulses of straight lines and Ricker pulses; pulses of one duration share tables."""
-    inputs = np.empty(rows.size, kernel.RUN_ROW)
+    inputs = np.empty(rows.size, finite_motion.RUN_ROW)
     inputs["scale"], inputs["restitution"], inputs["angle"] = runs.amplitude, runs.restitution, 0.0
     inputs["critical_angle"] = runs.critical_angle
+    give_sides(inputs, runs.left)
+    inputs["speed_unit"], inputs["stream"] = 1.0, scatter_of(runs.scatter).stream
     durations, places = np.unique(runs.duration, return_inverse=True)
     for number, duration in enumerate(durations.tolist()):
         own = np.flatnonzero(places == number)
         base = Pulse(runs.kind, amplitude=1.0, duration=duration).samples
-        p = sampled(base, full=runs.full)
-        part = np.empty(own.size, ends.ENDING_ROW)
-        if not kernel.run_batch(p, inputs[own], True, part, stop):
+        p = sampled(base, full=runs.full, left=runs.left, law=runs.law, scatter=runs.scatter)
+        part = np.empty(own.size, finite_motion.ENDING_ROW)
+        if not finite_motion.run_batch(p, inputs[own], True, part, stop):
             return False
         rows[own] = part
     return True
@@ -207,9 +265,13 @@ class BlockEndings:
         Factor of the base motion.
     model : {"slender", "full"}
         Equation of motion.
+    normalised_by : {"angle", "tangent"}, optional
+        Unit of the base acceleration, as for `Block.system`.
     """
 
-    def __init__(self, base: GroundMotion | Pulse, scale: float, model: str) -> None:
+    def __init__(
+        self, base: GroundMotion | Pulse, scale: float, model: str, normalised_by: str | None = None
+    ) -> None:
         self.scale = scale
         self.pulse = base if isinstance(base, Pulse) and base.cosine is not None else None
         motion = base if isinstance(base, GroundMotion) else _samples(base)
@@ -220,7 +282,9 @@ class BlockEndings:
             "polarity": 1.0,
             "level": scale,
         }
-        self.spec = motion_spec(RecordSet(motion), values, intensity="scale", model=model)
+        self.spec = motion_spec(
+            RecordSet(motion), values, intensity="scale", model=model, normalised_by=normalised_by
+        )
 
     def at(self, size: np.ndarray, slenderness: np.ndarray, stop: np.ndarray) -> Arrays | None:
         """Return outcome, certified, peak, margin and impacts at n points; None if another thread sets `stop` (1,).
@@ -233,17 +297,18 @@ class BlockEndings:
         assert self.pulse.cosine is not None
         turns, phase = self.pulse.cosine
         inputs, rows = (
-            np.empty(size.size, finite_runs.PULSE_ROW),
-            np.empty(size.size, ends.ENDING_ROW),
+            np.empty(size.size, finite_motion.PULSE_ROW),
+            np.empty(size.size, finite_motion.ENDING_ROW),
         )
         inputs["amplitude"] = runs.factor * abs(self.pulse.amplitude)
         inputs["duration"] = runs.frequency_parameter * self.pulse.duration
         inputs["frequency"] = 2 * math.pi * turns / inputs["duration"]
         inputs["phase"] = phase if self.pulse.amplitude >= 0 else phase + math.pi
         inputs["restitution"], inputs["critical_angle"] = runs.restitution, runs.slenderness
-        kind = a_pulse(full=runs.full)
-        done = finite_runs.run_pulses(kind, inputs, True, rows, stop)
-        return answers(rows, with_peak=True, assessed=not runs.full) if done else None
+        give_sides(inputs, runs.left)
+        kind = a_pulse(full=runs.full, left=runs.left)
+        done = finite_motion.run_pulses(kind, inputs, True, rows, stop)
+        return answers(rows, with_peak=True) if done else None
 
 
 def _samples(pulse: Pulse) -> GroundMotion:

@@ -13,7 +13,8 @@ from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import Fragility
 from rocking.model.record_set import RecordSet, record_set
-from rocking.model.validation import Refusal, reals, refuse_if, whole, within
+from rocking.model.restitution import check_uniform
+from rocking.model.validation import Refusal, instance, reals, refuse_if, whole, within
 from rocking.survey.ending_measures import UNDECIDED, ending
 from rocking.survey.fragility_curve import Fractions, clustered_fractions, fitted, two_level_weights
 from rocking.survey.incremental_dynamic_analysis import block_spec, of_block
@@ -39,7 +40,9 @@ def fragility(
     height_spread: float = 0.0,
     width_spread: float = 0.0,
     restitution_spread: float = 0.0,
-    model: str = "slender",
+    polarity: Any = "+",
+    model: str = "full",
+    normalised_by: str | None = None,
     replicates: int = 1000,
     seed: int = 0,
     store: str | os.PathLike[str] | None = None,
@@ -67,15 +70,19 @@ def fragility(
         Limits of |Θ| in (0, 10], ascending. Overturning, an infinite limit, always follows; with ``[]`` it is alone.
         Default: 0.1 and 0.5.
     samples : int
-        Number of samples of an uncertain block per record, in [1, 10⁴]. Default: 1.
+        Number of samples per record of an uncertain block, or of one whose restitution is scattered; in [1, 10⁴]. Default: 1.
     height_spread, width_spread : float
         Standard deviations of ln H and ln B, in [0, 0.5]; both are lognormal with the nominal value as median. Default: 0.
     restitution_spread : float
         Half the width of the uniform distribution of e about its nominal value, in [0, 0.5], cut off at 0 and 1. Housner's
         value follows the sample of height and width. Default: 0.
+    polarity : {"+", "-", "both", "worse"}
+        Direction of the motions, as in `rocking_spectrum`; with "both" each record has two runs. Default: "+".
     model : {"slender", "full"}
-        Equation of motion, as for `Block.system`. With "full", `certified` is not assessed.
-        Default: "slender".
+        Equation of motion, as for `Block.system`.
+        Default: "full".
+    normalised_by : {"angle", "tangent"}, optional
+        Unit of the base acceleration of slender blocks, as for `Block.system`. Default: "tangent".
     replicates : int
         Number of bootstrap replicates, in [100, 10⁵]. Default: 1,000.
     seed : int
@@ -155,15 +162,19 @@ def fragility(
             ("restitution_spread", restitution_spread),
         )
     }
+    law = instance("block", block, Block).law
     refuse_if(
-        count > 1 and not any(spreads.values()),
+        count > 1 and not any(spreads.values()) and law.scatter is None,
         "samples",
         "be 1 for a certain block",
         count,
-        "give {height_spread}, {width_spread} or {restitution_spread}",
+        "give {height_spread}, {width_spread} or {restitution_spread}, or a restitution with scatter",
     )
-    spec = block_spec(chosen, block, levels, intensity, model=model, one_level=True)
-    if any(spreads.values()):
+    if restitution_spread:
+        check_uniform(law.rows, "{restitution_spread}")
+    how = {"polarity": polarity, "model": model, "normalised_by": normalised_by}
+    spec = block_spec(chosen, block, levels, intensity, **how, one_level=True)
+    if any(spreads.values()) or count > 1:
         spec = spec.extended(
             UncertainMotionSpec,
             {"sample": np.arange(float(count))},
@@ -172,6 +183,7 @@ def fragility(
         )
     data = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
     runs = of_block(data, spec, chosen, block).assign_attrs(replicates=replicates, seed=seed)
+    count *= runs.sizes.get("polarity", 1)
     weights = two_level_weights(len(chosen), count, replicates, np.random.default_rng(seed))
     return _estimated(runs.load(), thresholds, weights, np.argsort(marks), block)
 
@@ -188,15 +200,27 @@ def _limits(values: Any) -> np.ndarray:
     return numbers
 
 
+def by_record(runs: xr.Dataset) -> xr.Dataset:
+    """Return runs over record, sample and level: those of both polarities are samples, too."""
+    kept = runs if "sample" in runs.dims else runs.expand_dims(sample=[0])
+    if "polarity" in kept.dims:
+        kept = kept.stack(run=("polarity", "sample"), create_index=False)
+        kept = kept.drop_vars(["polarity", "sample"]).rename_dims(run="sample")
+    return kept.transpose("record", "sample", "level", ...)
+
+
+def exceeds(peak: np.ndarray, limit: Any) -> np.ndarray:
+    """Return whether peaks exceed a limit; an infinite limit is overturning."""
+    return np.where(np.isinf(limit), np.isinf(peak), peak > limit)
+
+
 def _estimated(
     runs: xr.Dataset, limits: np.ndarray, weights: np.ndarray, order: np.ndarray, block: Block
 ) -> Fragility:
     """Return fractions, fits and their intervals; the bootstrap takes the records in a given order."""
-    kept = runs if "sample" in runs.dims else runs.expand_dims(sample=[0])
-    kept = kept.isel(record=order).transpose("record", "sample", "level", ...)
+    kept = by_record(runs).isel(record=order)
     peak, undecided = kept.peak.values, kept.certified.values == UNDECIDED
-    with_limit = peak[..., None]
-    exceeding = np.where(np.isinf(limits), np.isinf(with_limit), with_limit > limits)
+    exceeding = exceeds(peak[..., None], limits)
     rocking = peak > 0.0
     fractions = clustered_fractions(
         exceeding, weights, np.broadcast_to(undecided[..., None], exceeding.shape)

@@ -258,7 +258,7 @@ def fitted(
     # two parameters fit two levels exactly
     misfit = float(np.abs(exceeding.mean(axis=(0, 1)) - curve).max()) if levels.size > 2 else math.nan
     count = rocking.shape[0]
-    band = _band(levels, many, exceeds / total, rocks / total, _tails(count))
+    band = _band(levels, many, exceeds / total, rocks / total, count)
     ends = (
         log_basic_interval(median, many.median_bounds, count),
         log_basic_interval(dispersion, many.dispersion_bounds, count),
@@ -267,7 +267,7 @@ def fitted(
 
 
 def _band(
-    levels: np.ndarray, many: Fits, exceeding: np.ndarray, rocking: np.ndarray, tails: tuple[float, float]
+    levels: np.ndarray, many: Fits, exceeding: np.ndarray, rocking: np.ndarray, records: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the percentiles of the curves of all replicates at each level."""
     from scipy.special import ndtr
@@ -276,18 +276,26 @@ def _band(
     scores = np.log(levels / many.median[:, None]) / many.dispersion[:, None]
     # the limit of the fit is the fraction itself, where no maximum is finite
     curves = np.where(determined, rocking * ndtr(scores), exceeding)
+    low, high = tails(records)
     return (
-        np.quantile(np.where(falling, 0.0, curves), tails[0], axis=0),
-        np.quantile(np.where(falling, rocking, curves), tails[1], axis=0),
+        np.quantile(np.where(falling, 0.0, curves), low, axis=0),
+        np.quantile(np.where(falling, rocking, curves), high, axis=0),
     )
 
 
-def _tails(records: int) -> tuple[float, float]:
+def tails(records: int) -> tuple[float, float]:
     """Return the probabilities of the percentiles of a bootstrap, wider for few records: Hesterberg (2015)."""
-    from scipy.special import ndtr, stdtrit
+    from scipy.special import ndtr
 
-    reach = math.sqrt(records / (records - 1.0)) * stdtrit(records - 1.0, ENDS[1])
+    reach = reach_of(records)
     return float(ndtr(-reach)), float(ndtr(reach))
+
+
+def reach_of(records: int) -> float:
+    """Return the number of standard deviations of the ends of an interval, more for few records: Hesterberg (2015)."""
+    from scipy.special import stdtrit
+
+    return float(math.sqrt(records / (records - 1.0)) * stdtrit(records - 1.0, ENDS[1]))
 
 
 def log_basic_interval(
@@ -298,12 +306,47 @@ def log_basic_interval(
     A replicate without a fit gives only bounds of the parameter: it counts with the bound that widens the interval.
     """
     low, high = np.sort(bounds[0]), np.sort(bounds[1])
-    last, tails = low.size - 1, _tails(records)
-    least, most = float(low[math.floor(tails[0] * last)]), float(high[math.ceil(tails[1] * last)])
+    last, (least_tail, most_tail) = low.size - 1, tails(records)
+    least, most = float(low[math.floor(least_tail * last)]), float(high[math.ceil(most_tail * last)])
     return (
         0.0 if math.isinf(most) else estimate * (estimate / most),
         math.inf if least == 0.0 else estimate * (estimate / least),
     )
+
+
+def accelerated_interval(
+    estimate: float, bounds: tuple[np.ndarray, np.ndarray], without: np.ndarray, records: int
+) -> tuple[float, float]:
+    """Return the bias-corrected and accelerated bootstrap interval: Efron, J. Am. Stat. Assoc. 82, 171–185 (1987).
+
+    Parameters
+    ----------
+    estimate : float
+        Estimate.
+    bounds : pair of arrays (replicates,)
+        Bounds of the estimates of the replicates, equal for one that is determined.
+    without : array (records,)
+        Estimates without each record; those that are not finite count as the mean of the others.
+    records : int
+        Number of records.
+    """
+    from scipy.special import ndtr, ndtri
+
+    low, high = np.sort(bounds[0]), np.sort(bounds[1])
+    count = low.size
+    below = 0.5 * ((low < estimate).sum() + (high < estimate).sum())
+    shift = ndtri(np.clip(below, 0.5, count - 0.5) / count)
+    known = without[np.isfinite(without)]
+    deviations = known.mean() - known if known.size else np.zeros(1)
+    square = (deviations**2).sum()
+    acceleration = (deviations**3).sum() / (6.0 * square**1.5) if square > 0.0 else 0.0
+    reach = shift + np.array([-1.0, 1.0]) * reach_of(records)
+    scale = 1.0 - acceleration * reach
+    with np.errstate(divide="ignore"):
+        # beyond the pole of the formula an end is that of all replicates
+        moved = np.where(scale > 0.0, shift + reach / scale, np.copysign(np.inf, reach))
+    first, second = ndtr(moved) * (count - 1)
+    return float(low[math.floor(first)]), float(high[math.ceil(second)])
 
 
 def _problem(fit: Fits, limit: float, records: int) -> str:

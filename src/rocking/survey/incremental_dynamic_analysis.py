@@ -12,10 +12,17 @@ import numpy as np
 from rocking.model.block import Block, block_attributes
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import IncrementalDynamicAnalysis
-from rocking.model.record_set import RecordSet, record_set
+from rocking.model.record_set import RecordSet, both_ways, record_set
 from rocking.survey.ending_measures import ending
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import MotionSpec, check_one_block, checked_polarity, is_axis, motion_spec
+from rocking.survey.spec import (
+    MotionSpec,
+    check_one_block,
+    checked_polarity,
+    is_axis,
+    left_quantities,
+    motion_spec,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -30,8 +37,9 @@ def incremental_dynamic_analysis(
     *,
     intensity: str = "scale",
     angle: float = 0.0,
-    polarity: float = 1.0,
-    model: str = "slender",
+    polarity: Any = "+",
+    model: str = "full",
+    normalised_by: str | None = None,
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
@@ -54,11 +62,15 @@ def incremental_dynamic_analysis(
         Intensity measure of the levels, as in `rocking_spectrum`. Default: "scale", the factor of each record.
     angle : float
         Initial angle Θ in units of θcr. Default: 0, at rest.
-    polarity : float
-        1, or -1 for the opposite direction of the motion. Default: 1.
+    polarity : {"+", "-", "both", "worse"}
+        Direction of the motion: as recorded, reversed, each record twice, or of both runs the one
+        that is worse for the block. A symmetric block at rest does not distinguish them. 1, -1 and [-1, 1] are allowed, too.
+        Default: "+".
     model : {"slender", "full"}
-        Equation of motion, as for `Block.system`. With "full", `certified` is not assessed and `margin` is NaN.
-        Default: "slender".
+        Equation of motion, as for `Block.system`.
+        Default: "full".
+    normalised_by : {"angle", "tangent"}, optional
+        Unit of the base acceleration of slender blocks, as for `Block.system`. Default: "tangent".
     store, executor, progress, repair
         As in `parametric_map`.
 
@@ -70,7 +82,7 @@ def incremental_dynamic_analysis(
     Raises
     ------
     TypeError, ValueError, ImportError, OSError
-        As in `parametric_map`, or if `angle` or `polarity` is an array.
+        As in `parametric_map`, or if `angle` is an array.
 
     See Also
     --------
@@ -91,8 +103,17 @@ def incremental_dynamic_analysis(
     >>> result.dataset.peak.dims, result.fractiles().dims
     (('record', 'level'), ('fractile', 'level'))
     """
-    chosen = record_set(records)
-    spec = block_spec(chosen, block, levels, intensity, angle=angle, polarity=polarity, model=model)
+    chosen, polarity = with_polarity(record_set(records), polarity)
+    spec = block_spec(
+        chosen,
+        block,
+        levels,
+        intensity,
+        angle=angle,
+        polarity=polarity,
+        model=model,
+        normalised_by=normalised_by,
+    )
     data = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
     return IncrementalDynamicAnalysis(of_block(data, spec, chosen, block), block)
 
@@ -104,8 +125,9 @@ def block_spec(
     intensity: str,
     *,
     angle: float = 0.0,
-    polarity: float = 1.0,
-    model: str = "slender",
+    polarity: Any = 1.0,
+    model: str = "full",
+    normalised_by: str | None = None,
     one_level: bool = False,
 ) -> MotionSpec:
     """Return the survey of one block over records and levels; TypeError or ValueError if an argument is invalid.
@@ -122,14 +144,23 @@ def block_spec(
             "slenderness": block.critical_angle,
             "restitution": block.restitution,
             "angle": angle,
-            "polarity": checked_polarity(polarity, one=True),
+            "polarity": polarity,
             "level": levels,
+            **left_quantities(block.left),
         },
         intensity=intensity,
         inertia_ratio=block.inertia_ratio,
         model=model,
+        normalised_by=normalised_by,
         one_run=one_level,
+        law=block.law,
     )
+
+
+def with_polarity(records: RecordSet, polarity: Any) -> tuple[RecordSet, Any]:
+    """Return records and a polarity for a survey without an axis of it: both polarities are each record and its reverse."""
+    checked = checked_polarity(polarity)
+    return (both_ways(records), 1.0) if isinstance(checked, np.ndarray) else (records, checked)
 
 
 def of_block(data: xr.Dataset, spec: MotionSpec, records: RecordSet, block: Block) -> xr.Dataset:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import frozen
 
-from rocking.kernels.classify import verdict_record as kernel
+from rocking.kernels.classify import verdict as kernel
 from rocking.model.survey_results import OverturningCurve
 from rocking.model.system import System
-from rocking.model.validation import refuse_if, whole
+from rocking.model.validation import instance, refuse_if, whole
 from rocking.survey.measurement import Measurement
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import sampled
@@ -137,8 +137,8 @@ def overturning_amplitude(
         Axes of the result, ascending: forcing period T or forcing frequency Ω, coefficient of restitution e and critical angle of
         the full equation, rad. Default: those of the system.
     phases : int
-        Number of initial phases φ, evenly spaced over [0, π). From rest, the other half of the phases only mirrors the
-        motion. Default: 16.
+        Number of initial phases φ, evenly spaced over [0, π), for an unsymmetric block over [0, 2π). From rest, the
+        other half of the phases only mirrors the motion of a symmetric block. Default: 16.
     max_cycles, max_period : int
         As in `classify`. A run that has not overturned after `max_cycles` counts as survived. Default: 1,000 and 64.
     store, executor, progress, repair
@@ -179,7 +179,8 @@ def overturning_amplitude(
     """
     count = whole("phases", phases, 1, MAX_PHASES)
     measure = outcome(max_cycles, max_period, TITLE)
-    turned = np.arange(count) * (np.pi / count)
+    span = np.pi if instance("system", system, System).left is None else 2.0 * np.pi
+    turned = np.arange(count) * (span / count)
     fixed = system_quantities(system) | {"phase": 0.0}
     refuse_if(
         system.braces is not None, "system", "have no braces: between them a block does not overturn", system
@@ -270,9 +271,9 @@ def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> xr.Dataset:
 
 
 def _thresholds(scan: Scan) -> np.ndarray:
-    """Return A* of each cell; NaN for the full equation, for which there is no closed form."""
+    """Return A* of each cell; NaN without a closed form."""
     grids = np.meshgrid(*(scan.kinds[name].values for name in scan.over), indexing="ij")
-    if scan.spec.full:
+    if not scan.spec.has_tangency:
         return np.full(grids[0].shape if grids else (), np.nan)
     at: dict[str, Any] = scan.spec.fixed | dict(zip(scan.over, grids, strict=True))
     period = at["period"] if "period" in at else 2.0 * np.pi / at["frequency"]

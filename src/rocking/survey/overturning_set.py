@@ -11,18 +11,27 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from attrs import evolve, field, frozen
 
-from rocking.kernels.march import ending as ends
-from rocking.kernels.march import finite_runs as kernel
+from rocking.kernels.motion import finite_motion
 from rocking.model.block import Block
+from rocking.model.block_formulas import with_unit
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.package import VERSION
 from rocking.model.record_results import SWITCH_ROW, OverturningSet, intervals_of
 from rocking.model.record_set import RecordSet, record_set
-from rocking.survey.ending_measures import CERTIFIED, METHOD, OVERTURNED, VARIABLES, answers, sampled
-from rocking.survey.incremental_dynamic_analysis import block_spec, of_block
+from rocking.survey.ending_measures import (
+    CERTIFIED,
+    METHOD,
+    OVERTURNED,
+    VARIABLES,
+    answers,
+    give_sides,
+    sampled,
+    worse_of,
+)
+from rocking.survey.incremental_dynamic_analysis import block_spec, of_block, with_polarity
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import MotionSpec, Values
+from rocking.survey.spec import MotionSpec, Values, left_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,6 +49,8 @@ COLUMNS = {
     "certified_below": "closest level below that was found certified",
     "certified_above": "closest level above that was found certified",
 }
+STATED = ("intensity", "angle", "polarity", "model", "normalised_by", "records_sha256")
+"""Attributes of the survey that the result keeps, if they have a value."""
 SWITCH = ("level", "certified_below", "certified_above", "impacts_since_rest")
 """Quantities of the switch between a level of the grid and the level below it; NaN without a switch."""
 
@@ -86,8 +97,9 @@ def overturning_set(
     *,
     intensity: str = "scale",
     angle: float = 0.0,
-    polarity: float = 1.0,
-    model: str = "slender",
+    polarity: Any = "+",
+    model: str = "full",
+    normalised_by: str | None = None,
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
@@ -111,11 +123,14 @@ def overturning_set(
         Intensity measure of the levels, as in `rocking_spectrum`. Default: "scale", the factor of the record.
     angle : float
         Initial angle Θ in units of θcr. Default: 0, at rest.
-    polarity : float
-        1, or -1 for the opposite direction of the motion. Default: 1.
+    polarity : {"+", "-", "both", "worse"}
+        Direction of the motion: as recorded, reversed, each record twice, or of both runs the one
+        that is worse for the block. A symmetric block at rest does not distinguish them. 1, -1 and [-1, 1] are allowed, too.
+        Default: "+".
     model : {"slender", "full"}
-        Equation of motion, as for `Block.system`. With "full", rounding errors are not assessed, so that no switch is
-        certified. Default: "slender".
+        Equation of motion, as for `Block.system`. Default: "full".
+    normalised_by : {"angle", "tangent"}, optional
+        Unit of the base acceleration of slender blocks, as for `Block.system`. Default: "tangent".
     store, executor, progress, repair
         As in `parametric_map`. More levels extend a store. It cannot be refined, because switches are sought between neighbours.
 
@@ -149,8 +164,17 @@ def overturning_set(
     >>> result.intervals().shape[1], bool(result.lowest[0] > 1)
     (2, True)
     """
-    chosen = record_set(records)
-    spec = block_spec(chosen, block, levels, intensity, angle=angle, polarity=polarity, model=model)
+    chosen, polarity = with_polarity(record_set(records), polarity)
+    spec = block_spec(
+        chosen,
+        block,
+        levels,
+        intensity,
+        angle=angle,
+        polarity=polarity,
+        model=model,
+        normalised_by=normalised_by,
+    )
     steps = spec.extended(SwitchSpec, block=block, grid=spec.axes["level"])
     data = run_survey(steps, MEASURE, store, executor, progress=progress, repair=repair)
     return OverturningSet(_dataset(of_block(data, spec, chosen, block).load(), spec, chosen), chosen, block)
@@ -175,19 +199,36 @@ def runs_of(spec: SwitchSpec, number: int, stop: np.ndarray) -> Run:
     """Return the function that follows a block under a motion at n levels; the motion's tables are made once."""
     block, motion = spec.block, spec.motions[number]
     alpha, slenderness = block.frequency_parameter, block.critical_angle
-    p = sampled(motion.normalised(1.0, alpha), full=spec.full)
-    lift_off = block.acceleration(1.0)
+    left = left_of(
+        {name: np.array([value]) for name, value in spec.fixed.items()}, np.array([block.restitution])
+    )
+    law = np.array(spec.law.rows).reshape(-1, 2)
+    p = sampled(motion.normalised(1.0, alpha), full=spec.full, left=left, law=law, scatter=spec.law.scatter)
+    restitution = law[:, 1].max() if spec.law.rows else block.restitution
+    stream = spec.streams(np.array([number]), np.zeros(1, np.int64))
+    unit = with_unit(block, spec.normalised_by).acceleration(1.0)
 
     def run(levels: np.ndarray) -> Arrays:
-        rows, inputs = np.empty(levels.size, ends.ENDING_ROW), np.empty(levels.size, kernel.RUN_ROW)
+        polarity = spec.fixed["polarity"]
+        if spec.worse:
+            return worse_of(run_one(levels, polarity), run_one(levels, -polarity))
+        return run_one(levels, polarity)
+
+    def run_one(levels: np.ndarray, polarity: float) -> Arrays:
+        rows, inputs = (
+            np.empty(levels.size, finite_motion.ENDING_ROW),
+            np.empty(levels.size, finite_motion.RUN_ROW),
+        )
         factors = spec.measure.factor(levels, spec.intensities[number], alpha, slenderness)
         # with the rounding of `GroundMotion.scaled` and `Block.system`, because a switch is located to the last digit
-        inputs["scale"] = spec.fixed["polarity"] * (motion.factor * factors) / lift_off
-        inputs["restitution"], inputs["angle"] = block.restitution, spec.fixed["angle"]
+        inputs["scale"] = polarity * (motion.factor * factors) / unit
+        inputs["restitution"], inputs["angle"] = restitution, spec.fixed["angle"]
         inputs["critical_angle"] = slenderness
-        if not kernel.run_batch(p, inputs, False, rows, stop):
+        inputs["speed_unit"], inputs["stream"] = slenderness * alpha, stream
+        give_sides(inputs, left)
+        if not finite_motion.run_batch(p, inputs, False, rows, stop):
             raise CancelledError("the survey was stopped")
-        return answers(rows, with_peak=False, assessed=not spec.full)
+        return answers(rows, with_peak=False)
 
     return run
 
@@ -274,7 +315,8 @@ def _dataset(data: xr.Dataset, spec: MotionSpec, records: RecordSet) -> xr.Datas
         "Conventions": "CF-1.11",
         "title": TITLE,
         "source": f"rocking {VERSION}",
-        **{name: data.attrs[name] for name in ("intensity", "angle", "polarity", "model", "records_sha256")},
+        **{name: data.attrs[name] for name in STATED if name in data.attrs},
+        **spec.law.attributes(),
     }
     return xr.Dataset(variables, {"level": level}, attributes).assign_coords(
         record=data.record,

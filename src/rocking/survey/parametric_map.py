@@ -56,7 +56,7 @@ def parametric_map(
         extend the map and axes of half the spacing refine it; no point is computed twice. Default: results are kept in
         memory.
     executor : concurrent.futures.Executor, optional
-        Executor that runs the computation. Results are bit-identical for all executors on the same type of processor.
+        Executor that runs the computation. Results are bit-identical for all executors on the same class of processors.
         Default: threads on all cores.
     progress : bool
         Whether to show the estimated cost and the progress on stderr. The progress is the part done, the time left, points per

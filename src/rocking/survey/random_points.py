@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from concurrent.futures import Executor
-from hashlib import sha256
 from typing import Any, ClassVar
 
 import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.model.block import Block
-from rocking.model.block_formulas import GRAVITY, frequency_parameter
+from rocking.model.block_formulas import frequency_parameter
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.progress import Bar
-from rocking.model.quantity import AMPLITUDE, PERIOD, SYSTEM_QUANTITIES
+from rocking.model.quantity import AMPLITUDE, LEFT_QUANTITIES, PERIOD, SYSTEM_QUANTITIES
 from rocking.model.record_set import RecordSet
 from rocking.model.validation import Refusal, Text, WrongType, reals, whole
 from rocking.survey.measurement import Arrays, Measurement
@@ -142,19 +141,23 @@ def perturbed(meant: Points, units: np.ndarray, off: float) -> Points:
     factors = 1.0 + off * units
     systems, starts = meant.systems.copy(), meant.starts.copy()
     place = {name: k for k, name in enumerate(SYSTEM)}
-    amplitude, period, restitution = (
-        systems[:, place[name]] for name in ("amplitude", "period", "restitution")
-    )
+    amplitude, period = (systems[:, place[name]] for name in ("amplitude", "period"))
     np.minimum(amplitude * factors[:, 0], AMPLITUDE.range[1], out=amplitude)
     np.clip(period * factors[:, 1], *PERIOD.range, out=period)
     systems[:, place["frequency"]] = 2.0 * np.pi / period
-    # uniform over the part of the range that is possible
-    low, high = restitution * (1.0 - off), np.minimum(restitution * (1.0 + off), 1.0)
-    restitution[:] = 0.5 * (low + high) + 0.5 * (high - low) * units[:, 2]
+    for name in ("restitution", "left_restitution"):
+        # uniform over the part of the range that is possible
+        restitution = systems[:, place[name]]
+        low, high = restitution * (1.0 - off), np.minimum(restitution * (1.0 + off), 1.0)
+        restitution[:] = 0.5 * (low + high) + 0.5 * (high - low) * units[:, 2]
     reach = systems[:, place["brace_angle"]]
     starts[:, 0] = np.clip(starts[:, 0] * factors[:, 3], -reach, reach)
     starts[:, 1] *= factors[:, 4]
     return Points(systems, starts)
+
+
+DRAWN = ("size", "slenderness", "restitution", *LEFT_QUANTITIES)
+"""Quantities of the samples of a block; the last three only of an unsymmetric one."""
 
 
 @frozen(eq=False)
@@ -168,19 +171,15 @@ class UncertainMotionSpec(MotionSpec):
         "sample": "number of the sample of the block, from 0"
     }
 
-    drawn: np.ndarray = field(kw_only=True)  # (records, samples, 3): size, slenderness, restitution
+    drawn: np.ndarray = field(
+        kw_only=True
+    )  # (records, samples, 3, or 6 for an unsymmetric block), as in DRAWN
 
     def inputs(self, values: Values) -> Runs:
         """Return the runs at n points."""
         arguments = self.arguments(values)
         record = arguments["record"].astype(int)
-        own = dict(
-            zip(
-                ("size", "slenderness", "restitution"),
-                self.drawn[record, arguments["sample"].astype(int)].T,
-                strict=True,
-            )
-        )
+        own = dict(zip(DRAWN, self.drawn[record, arguments["sample"].astype(int)].T, strict=False))
         runs = super().inputs({name: each for name, each in values.items() if name != "sample"} | own)
         nominal = (
             frequency_parameter(self.fixed["size"], self.fixed["inertia_ratio"]),
@@ -188,16 +187,18 @@ class UncertainMotionSpec(MotionSpec):
         )
         levels = np.array([self.intensities[number] for number in record.tolist()])
         factor = self.measure.factor(arguments["level"], levels, *nominal) * arguments["polarity"]
-        return runs._replace(factor=factor / (GRAVITY * own["slenderness"]))
+        streams = self.streams(record, arguments["sample"].astype(int))
+        return runs._replace(factor=factor / self.acceleration_units(own["slenderness"]), stream=streams)
 
 
 def block_samples(
     records: RecordSet, block: Block, samples: int, spreads: tuple[float, float, float], seed: int
 ) -> np.ndarray:
-    """Return size, slenderness and restitution of the samples of each record, shape (records, samples, 3).
+    """Return the quantities `DRAWN` of the samples of each record, shape (records, samples, 3); 6 for an unsymmetric block.
 
     The samples of a record are a Latin hypercube of their own, which depends on the seed and on the record only. Height and
-    width are lognormal. The restitution is uniform about the nominal value, or about Housner's value of the sample.
+    width are lognormal, and the offset of the mass centre is in proportion to the width. The restitution is uniform about the
+    nominal value, or about Housner's value of the sample, with the same deviation for impacts in both directions.
     """
     return np.array([_of_record(motion, block, samples, spreads, seed) for motion in records])
 
@@ -207,7 +208,7 @@ def _of_record(
 ) -> np.ndarray:
     from scipy.special import ndtri
 
-    random = np.random.default_rng([seed, int(fingerprint(motion)[:16], 16)])
+    random = np.random.default_rng([seed, motion.number])
     strata = random.permuted(np.tile(np.arange(samples), (3, 1)), axis=1)
     places = (strata + random.random((3, samples))) / samples
     places = np.clip(places, 1e-9, 1.0 - 1e-9)
@@ -215,28 +216,20 @@ def _of_record(
     width = block.width * np.exp(spreads[1] * ndtri(places[1]))
     rows = []
     for number, deviation in enumerate((spreads[2] * (2.0 * places[2] - 1.0)).tolist()):
-        restitution = None if block.has_housner_restitution else block.restitution
-        each = Block(float(height[number]), float(width[number]), restitution, block.inertia_ratio)
-        rows.append((each.radius, each.critical_angle, min(max(each.restitution + deviation, 0.0), 1.0)))
+        each = block.resized(float(height[number]), float(width[number]))
+        kept, left = (min(max(e + deviation, 0.0), 1.0) for e in (each.restitution, each.left_restitution))
+        row = [each.radius, each.critical_angle, kept]
+        if each.left is not None:
+            row += [each.left.angle_ratio, each.left.frequency_ratio, left]
+        rows.append(row)
     return np.array(rows)
-
-
-def fingerprint(motion: GroundMotion) -> str:
-    """Return a digest of step and samples, the same for a motion, its scaled copies and its mirror image."""
-    base = motion.normalised(1.0, 1.0)
-    values = np.asarray(base.values, dtype=float)
-    moving = np.flatnonzero(values)
-    sign = np.sign(values[moving[0]]) if moving.size else 1.0
-    return sha256(
-        np.float64(base.step).tobytes() + np.ascontiguousarray(sign * values + 0.0).tobytes()
-    ).hexdigest()
 
 
 def fingerprints(records: RecordSet) -> tuple[str, ...]:
     """Return the digest of each record; ValueError if a record occurs twice, because copies are not independent."""
     seen: dict[str, str] = {}
     for name, motion in zip(records.names, records, strict=True):
-        mark = fingerprint(motion)
+        mark = motion.fingerprint
         if mark in seen:
             allowed = "hold independent motions"
             twins = f"{name}, the same as {seen[mark]}"

@@ -11,12 +11,13 @@ from typing import Any, TypeVar
 import numpy as np
 
 from rocking.kernels import batch
-from rocking.kernels.classify import verdict_record as kernel
+from rocking.kernels.classify import verdict as kernel
+from rocking.model.restitution import check_uniform
 from rocking.model.share import Share
 from rocking.model.survey_results import Repeatability, RepeatabilityMap
 from rocking.model.system import State, System, check_periodic
 from rocking.model.text import counted
-from rocking.model.validation import whole, within
+from rocking.model.validation import instance, whole, within
 from rocking.model.verdict import Kind
 from rocking.response.classify import KINDS, budget
 from rocking.survey.measurement import Arrays, Measurement, Variable
@@ -111,13 +112,14 @@ def repeatability(
     200 runs with inputs off by up to 1 %: period 1, symmetric, 2 impacts 100 % (98.1–100 %)
     """
     start = check_periodic(system, start)
+    check_uniform(system.restitution_table, "repeatability, which changes it")
     off = within("relative", relative, 0, MAX_RELATIVE)
     count = whole("samples", samples, 1, MAX_SAMPLES)
     measure = response(max_cycles, max_period, TITLE)
     fixed = by_period(system) | fixed_start(start)
     meant = points({"angle": np.full(count, start.angle)}, fixed)
     tried = perturbed(meant, generator(seed).uniform(-1.0, 1.0, (count, INPUTS)), off)
-    drawn = dict(zip((*SYSTEM, *START), np.hstack(tried).T, strict=True))
+    drawn = dict(zip((*SYSTEM, *START), np.hstack([tried.systems, tried.starts]).T, strict=True))
     spec = RandomSpec(
         {"sample": np.arange(float(count))},
         fixed,
@@ -234,6 +236,7 @@ def repeatability_map(
     >>> result.uncertain.of, result.dataset.agreeing.dims
     (16, ('amplitude', 'period'))
     """
+    check_uniform(instance("system", system, System).restitution_table, "repeatability, which changes it")
     spec = harmonic_spec(
         system_quantities(system) | fixed_start(start),
         {

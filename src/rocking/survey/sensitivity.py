@@ -13,6 +13,7 @@ from rocking.model.block import Block
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import Sensitivity
 from rocking.model.record_set import RecordSet, record_set
+from rocking.model.restitution import check_uniform
 from rocking.model.validation import Refusal, instance, refuse_if
 from rocking.survey.ending_measures import OVERTURNED, UNDECIDED, ending
 from rocking.survey.fragility_curve import clustered_fractions, two_level_weights
@@ -42,7 +43,9 @@ def sensitivity(
     levels: Any,
     *,
     intensity: str = "scale",
-    model: str = "slender",
+    polarity: Any = "+",
+    model: str = "full",
+    normalised_by: str | None = None,
     seed: int = 0,
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
@@ -67,9 +70,13 @@ def sensitivity(
         Levels of the intensity measure, ascending, two at least.
     intensity : str
         Intensity measure of the levels, as in `rocking_spectrum`. Default: "scale", the factor of each record.
+    polarity : {"+", "-", "both", "worse"}
+        Direction of the motions, as in `rocking_spectrum`; with "both" each record has two runs. Default: "+".
     model : {"slender", "full"}
-        Equation of motion, as for `Block.system`. With "full", `certified` is not assessed.
-        Default: "slender".
+        Equation of motion, as for `Block.system`.
+        Default: "full".
+    normalised_by : {"angle", "tangent"}, optional
+        Unit of the base acceleration of slender blocks, as for `Block.system`. Default: "tangent".
     seed : int
         Random seed of the bootstrap of the intervals, in [0, 2³² − 1]. Default: 0.
     store, executor, progress, repair
@@ -106,17 +113,19 @@ def sensitivity(
     chosen = record_set(records)
     order = np.argsort(fingerprints(chosen))
     random = generator(seed)
-    instance("block", block, Block)
-    refuse_if(
-        not RESTITUTION <= block.restitution <= 1.0 - RESTITUTION,
-        "block",
-        f"have a restitution in [{RESTITUTION}, {1.0 - RESTITUTION}]",
-        block.restitution,
-    )
+    check_uniform(instance("block", block, Block).law.rows, "a sensitivity, which changes it")
+    for restitution in (block.restitution, block.left_restitution):
+        refuse_if(
+            not RESTITUTION <= restitution <= 1.0 - RESTITUTION,
+            "block",
+            f"have a restitution in [{RESTITUTION}, {1.0 - RESTITUTION}]",
+            restitution,
+        )
     for motion in chosen:
         if motion.acceleration.size < 2:
             raise Refusal("records", "have two samples at least", motion.acceleration.tolist())
-    unchanged = block_spec(chosen, block, levels, intensity, model=model)
+    how = {"polarity": polarity, "model": model, "normalised_by": normalised_by}
+    unchanged = block_spec(chosen, block, levels, intensity, **how)
     # runs of one record and change are neighbours, which share tables
     spec = unchanged.extended(ChangedMotionSpec, {"change": np.arange(1.0 + len(CHANGES))})
     measure = ending(TITLE, with_peak=False)
@@ -134,7 +143,9 @@ class ChangedMotionSpec(MotionSpec):
         varied = dict(values)
         change = varied.pop("change").astype(int)
         varied["level"] = varied["level"] * np.array([each**self.measure.power for each in FACTORS])[change]
-        varied["restitution"] = self.fixed["restitution"] + RISES[change]
+        for name in ("restitution", "left_restitution"):
+            if name in self.fixed:
+                varied[name] = self.fixed[name] + RISES[change]
         runs = super().inputs(varied)
         later = change == LATER
         moved = {~number: _between(self.motions[number]) for number in np.unique(runs.record[later]).tolist()}
@@ -152,21 +163,26 @@ def _between(motion: GroundMotion) -> GroundMotion:
 def _summed_up(runs: xr.Dataset, order: np.ndarray, random: np.random.Generator, block: Block) -> Sensitivity:
     import xarray as xr
 
-    runs = runs.transpose("record", "level", "change")
+    over = ("record", *(("polarity",) * ("polarity" in runs.dims)), "level")
+    runs = runs.transpose(*over, "change")
     fell, sure = runs.outcome.values == OVERTURNED, runs.certified.values != UNDECIDED
     unchanged = fell[..., 0]
     differs = fell[..., 1:] != fell[..., :1]
     doubtful = ~(sure[..., 1:] & sure[..., :1])
     weights = np.broadcast_to(
-        two_level_weights(len(order), 1, REPLICATES, random), (REPLICATES, *differs.shape[:2])
+        two_level_weights(len(order), 1, REPLICATES, random),
+        (REPLICATES, len(order), unchanged.size // len(order)),
     )
-    shares = clustered_fractions(differs[order], weights, doubtful[order])
+    each = (len(order), -1, len(CHANGES))
+    shares = clustered_fractions(
+        differs[order].reshape(each), weights, np.broadcast_to(doubtful, differs.shape)[order].reshape(each)
+    )
     columns: dict[str, tuple[Any, str]] = {
         **shares.columns("share", "fraction of the runs whose verdict differs"),
-        "flipped": (differs.sum(axis=(0, 1)), "number of runs whose verdict differs"),
+        "flipped": (differs.reshape(-1, len(CHANGES)).sum(axis=0), "number of runs whose verdict differs"),
         "runs": (np.full(len(CHANGES), unchanged.size), "number of runs"),
         "undecided": (
-            doubtful.sum(axis=(0, 1)),
+            doubtful.reshape(-1, len(CHANGES)).sum(axis=0),
             "number of runs that are not certified, with or without the change",
         ),
     }
@@ -174,9 +190,8 @@ def _summed_up(runs: xr.Dataset, order: np.ndarray, random: np.random.Generator,
         name: ("change", values, {"long_name": text, "units": "1"})
         for name, (values, text) in columns.items()
     }
-    over = ("record", "level")
     variables["overturned"] = (over, unchanged, {"long_name": "whether the unchanged block overturns"})
     variables["differs"] = ((*over, "change"), differs, {"long_name": "whether the verdict differs"})
-    coordinates = {"change": list(CHANGES)} | {name: runs[name] for name in ("record", "level", "name")}
+    coordinates = {"change": list(CHANGES)} | {name: runs[name] for name in (*over, "name")}
     kept = {name: value for name, value in runs.attrs.items() if name != "with_peak"}
     return Sensitivity(xr.Dataset(variables, coordinates, kept), block)

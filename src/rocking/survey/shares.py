@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.kernels.classify import verdict_record as kernel
+from rocking.kernels.classify import verdict as kernel
 from rocking.model.proof import ProvedShare
 from rocking.model.quantity import SYSTEM_QUANTITIES
+from rocking.model.restitution import check_uniform
 from rocking.model.share import Share, interval_variables, shares_of
 from rocking.model.survey_results import ChaosShare, ParametricMap, check_survey
 from rocking.model.system import NO_BRACES, State, System, system_of
@@ -107,6 +108,7 @@ def chaos_share(
     if restitution is None:
         values = np.array([system.restitution])
     else:
+        check_uniform(system.restitution_table, "an axis of a share")
         values = quantity_axis("restitution", restitution, "the system")
     count = whole("samples", samples, 1, MAX_SAMPLES)
     random = generator(seed)

@@ -10,24 +10,31 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
-from attrs import evolve, field, fields, frozen
+from attrs import astuple, evolve, field, fields, frozen
 
-from rocking.kernels.forcing import parameters as numbers
+from rocking.kernels import system as numbers
 from rocking.model.block import INERTIA_RATIOS, RECTANGLE, Block
-from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
+from rocking.model.block_formulas import (
+    GRAVITY,
+    acceleration_unit_g,
+    frequency_parameter,
+    housner_restitution,
+)
 from rocking.model.forcing import SINES, Pulse
 from rocking.model.ground_motion import GroundMotion
-from rocking.model.quantity import CRITICAL_ANGLE, RUN_QUANTITIES, SYSTEM_QUANTITIES
+from rocking.model.quantity import CRITICAL_ANGLE, LEFT_QUANTITIES, RUN_QUANTITIES, SYSTEM_QUANTITIES
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
+from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, scatter_attributes
 from rocking.model.system import (
     MODELS,
     NO_BRACES,
+    LeftSide,
     State,
     System,
     check_below_flat,
     check_between,
-    check_constant_restitution,
     check_periodic,
+    normalisation_for,
     quantities,
 )
 from rocking.model.text import formatted
@@ -46,6 +53,7 @@ from rocking.model.validation import (
 )
 
 Values = Mapping[str, np.ndarray]
+HOUSNER = Restitution()
 Spec = TypeVar("Spec", bound="SurveySpec")
 Motions = TypeVar("Motions", bound="MotionSpec")
 
@@ -58,8 +66,11 @@ class SurveySpec:
     contiguous: ClassVar[bool] = False
     """Flag: the points of a batch are neighbours, because neighbours share some of the work."""
 
-    in_a_tile: ClassVar[int] = 1 << 16
-    """Largest number of points of a tile, the part of a survey that an interrupted run keeps or loses."""
+    in_a_tile: ClassVar[int | None] = 1 << 16
+    """Largest number of points of a tile, the part of a survey that an interrupted run keeps or loses.
+
+    None: all points, which depend on one another.
+    """
 
     numbers: ClassVar[dict[str, str]] = {}
     """Descriptions of the axes that are numbers of something, by name."""
@@ -82,7 +93,7 @@ class SurveySpec:
     @property
     def refines(self) -> bool:
         """Flag: a result does not depend on the spacing, so that a store has coarser levels and can be refined."""
-        return True
+        return self.in_a_tile is not None
 
     def with_axes(self: Spec, axes: dict[str, np.ndarray]) -> Spec:
         """Return the survey over other axes of the same names, such as those of a tile."""
@@ -162,6 +173,9 @@ SYSTEM = (
     "brace_angle",
     "brace_restitution",
     "critical_angle",
+    "angle_ratio",
+    "frequency_ratio",
+    "left_restitution",
 )
 START = ("angle", "velocity")
 
@@ -169,13 +183,15 @@ START = ("angle", "velocity")
 class Points(NamedTuple):
     """Systems and initial states of points, as arrays for the kernels."""
 
-    systems: np.ndarray  # (n, 8), SYSTEM, as `kernels.forcing.parameters.parameters_of_row` takes it
+    systems: np.ndarray  # (n, 11), SYSTEM, as `kernels.system.parameters_of_row` takes it
     starts: np.ndarray  # (n, 2), START
+    law: np.ndarray = numbers.NO_LAW  # (m, 2), rows of the coefficient of restitution over the speed
 
     @property
     def lossless(self) -> np.ndarray:
-        """Mask of the undamped points (e = 1)."""
-        return np.asarray(self.systems[:, SYSTEM.index("restitution")] == 1.0)
+        """Mask of the undamped points (e = 1 on both sides)."""
+        columns = [SYSTEM.index("restitution"), SYSTEM.index("left_restitution")]
+        return np.asarray((self.systems[:, columns] == 1.0).all(axis=1))
 
 
 @frozen(eq=False)
@@ -190,13 +206,34 @@ class HarmonicSpec(SurveySpec):
         "the base acceleration is amplitude cos(frequency time + phase)."
     )
 
+    @property
+    def has_tangency(self) -> bool:
+        """Flag: A* and A_M have closed forms, as for a slender, symmetric block without braces."""
+        others = {"brace_angle", "critical_angle", "angle_ratio"}
+        return not others & (self.axes.keys() | self.fixed.keys())
+
     def inputs(self, values: Values) -> Points:
         """Return the systems and initial states of n points."""
         return points(values, self.fixed)
 
     def described(self) -> dict[str, Any]:
         """Return the quantities that do not vary, by name, in the order of the dataset attributes."""
-        return {name: self.fixed[name] for name in SYSTEM_QUANTITIES if name in self.fixed} | self.stated
+        own = {name: self.fixed[name] for name in SYSTEM_QUANTITIES if name in self.fixed}
+        return own | table_attributes(rows_in(self.fixed)) | self.stated
+
+
+TABLE = "restitution_table"
+"""Name of the rows of the restitution over the speed, among the quantities that do not vary."""
+
+
+def rows_in(fixed: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:
+    """Return the rows of the restitution over the speed, among quantities that do not vary."""
+    return fixed.get(TABLE, ())
+
+
+def table_attributes(rows: Sequence[tuple[float, float]]) -> dict[str, Any]:
+    """Return what a dataset states of a table: one list, speed and coefficient in turn."""
+    return {TABLE: [number for row in rows for number in row]} if rows else {}
 
 
 def coordinate(name: str) -> dict[str, str]:
@@ -231,6 +268,10 @@ def harmonic_spec(fixed: Mapping[str, float], axes: Mapping[str, Any], count: in
         raise Incomplete(what, _counted(count), Text(got), remedy)
     if checked.keys() >= FORCING_TIMES:
         exactly_one(period=axes["period"], frequency=axes["frequency"])
+    for name in {"brace_angle", "brace_restitution"} & checked.keys():
+        refuse_if("angle_ratio" in fixed, name, "be omitted for an unsymmetric block", Text("an axis"))
+    if "restitution" in checked:
+        check_uniform(rows_in(fixed), f"an axis of {what}")
     replaced = checked.keys() | (FORCING_TIMES if FORCING_TIMES & checked.keys() else set())
     kept = {name: value for name, value in fixed.items() if name not in replaced}
     if "brace_angle" in checked and "brace_restitution" not in checked:
@@ -281,14 +322,22 @@ def check_one_block(block: Block, levels: Any, angle: Any) -> None:
         raise WrongType("levels", "be an array of levels, ascending", levels, remedy)
 
 
-def checked_polarity(polarity: Any, *, one: bool = False) -> float | np.ndarray:
-    """Check a polarity, one number or both; raises TypeError or ValueError."""
-    allowed = "be 1 or -1" if one else "be 1, -1 or [-1, 1]"
+WORSE = "worse"
+POLARITIES = {"+": 1.0, "-": -1.0, "both": np.array([-1.0, 1.0]), WORSE: WORSE}
+"""Polarities by their names: as recorded, reversed, both as an axis, and of both runs the one that is worse for the block."""
+
+
+def checked_polarity(polarity: Any) -> Any:
+    """Return a polarity as a number, an axis of both, or `WORSE`; TypeError or ValueError for anything else."""
+    allowed = 'be "+", "-", "both" or "worse", or 1, -1 or [-1, 1]'
+    if isinstance(polarity, str):
+        refuse_if(polarity not in POLARITIES, "polarity", allowed, polarity)
+        return POLARITIES[polarity]
     try:
         values = reals("polarity", polarity)
     except TypeError:
         raise WrongType("polarity", allowed, polarity) from None
-    both = not one and np.array_equal(values, [-1.0, 1.0])
+    both = np.array_equal(values, [-1.0, 1.0])
     if not both and (np.ndim(values) > 0 or abs(values) != 1.0):
         raise Refusal("polarity", allowed, polarity)
     return values
@@ -319,16 +368,25 @@ def points(values: Values, fixed: Mapping[str, float]) -> Points:
     """
     count = next(iter(values.values())).size
     usual = {"phase": 0.0, **NO_BRACES, "critical_angle": 0.0, "angle": 0.0, "velocity": 0.0}
+    usual |= {"angle_ratio": 1.0, "frequency_ratio": 1.0}
     constants = usual | dict(fixed)
+    rows = rows_in(constants)
+    constants.pop(TABLE, None)
     arguments = {name: np.broadcast_to(value, count) for name, value in constants.items()} | dict(values)
     if "frequency" in arguments:
         arguments["period"] = math.tau / arguments["frequency"]
     else:
         arguments["frequency"] = math.tau / arguments["period"]
     arguments["phase"] = _within_a_turn(arguments["phase"])
+    law = numbers.NO_LAW
+    if rows:
+        law = np.array(((0.0, float(arguments["restitution"][0])), *rows))
+        arguments["restitution"] = np.full(count, law[:, 1].max())
+    arguments.setdefault("left_restitution", arguments["restitution"])
     return Points(
         np.stack([arguments[name] for name in SYSTEM], axis=1),
         np.stack([arguments[name] for name in START], axis=1),
+        law,
     )
 
 
@@ -343,17 +401,46 @@ SLENDERNESSES = 1e-4, 1.57
 """Range of the critical angle, rad."""
 
 
+class Left(NamedTuple):
+    """Left sides of the blocks at n points, each an array (n,)."""
+
+    angle_ratio: np.ndarray
+    frequency_ratio: np.ndarray
+    left_restitution: np.ndarray
+    unequal: bool  # whether the sides of the blocks differ
+
+
+def left_of(arguments: Values, restitution: np.ndarray) -> Left:
+    """Return the left sides at points; those of symmetric blocks without ratios."""
+    if "angle_ratio" not in arguments:
+        return Left(np.ones(restitution.size), np.ones(restitution.size), restitution, False)
+    angle, frequency, left_restitution = (arguments[name] for name in LEFT_QUANTITIES)
+    return Left(angle, frequency, left_restitution, True)
+
+
+def left_quantities(left: LeftSide | None) -> dict[str, float]:
+    """Return the quantities of a left side by name; none of a symmetric block."""
+    return {} if left is None else dict(zip(LEFT_QUANTITIES, astuple(left), strict=True))
+
+
 class Runs(NamedTuple):
     """Runs at n points, each an array (n,), and the motions by their number."""
 
     motions: Mapping[int, GroundMotion]
     record: np.ndarray
     frequency_parameter: np.ndarray  # α, 1/s
-    factor: np.ndarray  # of the motion, in 1/(g θcr): what makes it a normalised base acceleration
+    factor: (
+        np.ndarray
+    )  # of the motion, in 1/(g θcr) or 1/(g tan θcr): what makes it a normalised base acceleration
     restitution: np.ndarray
     angle: np.ndarray
     slenderness: np.ndarray
     full: bool  # whether the blocks follow the full equation of motion
+    worse: bool  # whether a run is the worse one of the motion and its reverse
+    left: Left
+    law: Restitution
+    speed_unit: np.ndarray  # rad/s, of a normalised velocity
+    stream: np.ndarray  # number of the sequence of deviations of the restitution
 
 
 @frozen(eq=False)
@@ -373,6 +460,10 @@ class MotionSpec(SurveySpec):
     measure: Intensity = field(kw_only=True)
     digest: str = field(kw_only=True)
     model: str = field(kw_only=True)
+    normalised_by: str = field(kw_only=True)
+    worse: bool = field(default=False, kw_only=True)
+    """Flag: each run is the worse one of the motion and its reverse. The polarity is then 1."""
+    law: Restitution = field(kw_only=True)
 
     @property
     def full(self) -> bool:
@@ -406,25 +497,57 @@ class MotionSpec(SurveySpec):
         alpha = _each(frequency_parameter, arguments["size"], ratio)
         restitution = arguments.get("restitution")
         if restitution is None:
-            restitution = _each(housner_restitution, slenderness, ratio)
+            restitution = self.law.factor * _each(housner_restitution, slenderness, ratio)
+        if self.law.rows:
+            restitution = np.full(record.size, max(kept for _, kept in self.law.rows))
         own = np.array([self.intensities[number] for number in record.tolist()])
         factor = self.measure.factor(arguments["level"], own, alpha, slenderness)
         return Runs(
             self.motions,
             record,
             alpha,
-            factor * arguments["polarity"] / (GRAVITY * slenderness),
+            factor * arguments["polarity"] / self.acceleration_units(slenderness),
             restitution,
             arguments["angle"],
             slenderness,
             self.full,
+            self.worse,
+            left_of(arguments, restitution),
+            self.law,
+            slenderness * alpha,
+            self.streams(record, np.zeros_like(record)),
         )
+
+    def acceleration_units(self, slenderness: np.ndarray) -> np.ndarray:
+        """Return the base accelerations in m/s² that are 1 if they are normalised, for critical angles in rad."""
+        return GRAVITY * _each(acceleration_unit_g, slenderness, self.normalised_by)
+
+    def streams(self, record: np.ndarray, sample: np.ndarray) -> np.ndarray:
+        """Return the numbers (n,) of the sequences of deviations: one for each record and sample, at all levels alike."""
+        if self.law.scatter is None:
+            return np.zeros(record.size, np.int64)
+        pairs, places = np.unique(np.stack([record, sample]), axis=1, return_inverse=True)
+        runs = {
+            number: evolve(self.law.scatter, run=self.motions[number].number)
+            for number in set(pairs[0].tolist())
+        }
+        return np.array([runs[number].stream(own) for number, own in pairs.T.tolist()], np.int64)[
+            places.ravel()
+        ]
 
     def described(self) -> dict[str, Any]:
         """Return the quantities that do not vary, by name, and the digest of the records."""
-        fixed = {name: self.fixed[name] for name in (*RUN_QUANTITIES, "inertia_ratio") if name in self.fixed}
-        own = {"model": self.model, "intensity": self.measure.name, "records_sha256": self.digest}
-        return fixed | own | self.stated
+        fixed: dict[str, Any] = {
+            name: self.fixed[name] for name in (*RUN_QUANTITIES, "inertia_ratio") if name in self.fixed
+        }
+        if self.worse:
+            fixed["polarity"] = WORSE
+        # without the word for "angle", so that such results have the identity that they had before there was a choice
+        own = {"model": self.model} | (
+            {"normalised_by": "tangent"} if self.normalised_by == "tangent" else {}
+        )
+        own |= {"intensity": self.measure.name, "records_sha256": self.digest}
+        return fixed | self.law.attributes() | own | self.stated
 
     def coordinate(self, name: str) -> dict[str, str]:
         """Return the attributes of a coordinate."""
@@ -442,13 +565,15 @@ def motion_spec(
     arguments: Mapping[str, Any],
     *,
     intensity: str,
-    model: str = "slender",
+    model: str = "full",
+    normalised_by: str | None = None,
     inertia_ratio: float = RECTANGLE,
     one_run: bool = False,
+    law: Restitution = HOUSNER,
 ) -> MotionSpec:
     """Check the quantities of a survey of ground motions: arrays are axes, and the others are numbers or None.
 
-    With ``one_run``, nothing needs to vary.
+    With ``one_run``, nothing needs to vary. The ``law`` gives the restitution if the quantities do not.
 
     Raises
     ------
@@ -457,24 +582,40 @@ def motion_spec(
         Housner's restitution.
     """
     model = one_of("model", model, MODELS)
+    normalised_by = normalisation_for(normalised_by, model)
+    check_model(law, model)
     spans = {name: each.range for name, each in RUN_QUANTITIES.items()}
     if model == "full":
         spans["slenderness"] = CRITICAL_ANGLE.range
-    checked: dict[str, Any] = {
-        name: checked_polarity(arguments.get(name))
-        if name == "polarity"
-        else number_or_axis("levels" if name == "level" else name, arguments.get(name), span)
-        for name, span in spans.items()
-        if arguments.get(name) is not None or name != "restitution"
-    }
+    try:
+        checked: dict[str, Any] = {
+            name: checked_polarity(arguments.get(name))
+            if name == "polarity"
+            else number_or_axis("levels" if name == "level" else name, arguments.get(name), span)
+            for name, span in spans.items()
+            if arguments.get(name) is not None or name not in ("restitution", *LEFT_QUANTITIES)
+        }
+    except Refusal as error:
+        if type(error) is not Refusal or (error.argument, model) != ("slenderness", "full"):
+            raise
+        raise Refusal(
+            error.argument, error.allowed, error.value, "the slender {model} takes others"
+        ) from None
+    if worse := isinstance(checked["polarity"], str):
+        checked["polarity"] = 1.0
     axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
     fixed = {name: value for name, value in checked.items() if name not in axes}
     fixed["inertia_ratio"] = within("inertia_ratio", inertia_ratio, *INERTIA_RATIOS)
     if "restitution" not in checked:
-        squattest = float(np.max(checked["slenderness"]))
-        if housner_restitution(squattest, fixed["inertia_ratio"]) < 0.0:
-            allowed = "be a critical angle in rad for which Housner's restitution is not negative"
-            raise Refusal("slenderness", allowed, squattest, "or give {restitution}")
+        ends = float(np.max(checked["slenderness"])), float(np.min(checked["slenderness"]))
+        for slenderness in ends:
+            e = law.coefficient(housner_restitution(slenderness, fixed["inertia_ratio"]))
+            which = "Housner's restitution is not negative" if e < 0.0 else f"{law.origin} gives at most 1"
+            if not 0.0 <= e <= 1.0:
+                allowed = f"be a critical angle in rad for which {which}"
+                raise Refusal("slenderness", allowed, slenderness, "or give {restitution}")
+        if not law.is_housner and (law.rows or law.value is not None):
+            fixed["restitution"] = law.coefficient(1.0)
     measure, values = intensity_of(intensity, records)
     if len(records) > 1 or (one_run and not axes):
         axes = {"record": np.arange(float(len(records)))} | axes
@@ -491,13 +632,16 @@ def motion_spec(
         measure=measure,
         digest=records.digest,
         model=model,
+        worse=worse,
+        normalised_by=normalised_by,
+        law=law,
     )
 
 
-def _each(formula: Any, values: np.ndarray, inertia_ratio: float) -> np.ndarray:
+def _each(formula: Any, values: np.ndarray, other: Any) -> np.ndarray:
     """Apply a formula for one block to many, with the rounding of the formula."""
     distinct, places = np.unique(values, return_inverse=True)
-    return np.array([formula(value, inertia_ratio) for value in distinct.tolist()])[places]
+    return np.array([formula(value, other) for value in distinct.tolist()])[places]
 
 
 class Pulses(NamedTuple):
@@ -509,6 +653,9 @@ class Pulses(NamedTuple):
     restitution: np.ndarray
     critical_angle: np.ndarray  # rad
     full: bool  # whether the blocks follow the full equation of motion
+    left: Left
+    law: np.ndarray  # (m, 2), rows of the coefficient of restitution over the speed
+    scatter: Scatter | None
 
 
 def turns(kind: str) -> float:
@@ -523,17 +670,26 @@ class PulseSpec(SurveySpec):
     comment = "A peak is in units of the critical angle; impacts of chattering sequences do not count."
 
     kind: str = field(kw_only=True)
+    table: tuple[tuple[float, float], ...] = field(default=(), kw_only=True)
+    scatter: Scatter | None = field(default=None, kw_only=True)
 
     def inputs(self, values: Values) -> Pulses:
         """Return the pulses at n points."""
         arguments = self.arguments(values)
         duration = turns(self.kind) * math.tau / arguments["frequency"]
         angle = arguments["critical_angle"] if self.full else np.zeros(duration.size)
-        return Pulses(self.kind, arguments["amplitude"], duration, arguments["restitution"], angle, self.full)
+        restitution, law = arguments["restitution"], numbers.NO_LAW
+        if self.table:
+            law = np.array(((0.0, self.fixed["restitution"]), *self.table))
+            restitution = np.full(duration.size, law[:, 1].max())
+        left = left_of(arguments, restitution)
+        amplitude = arguments["amplitude"]
+        return Pulses(self.kind, amplitude, duration, restitution, angle, self.full, left, law, self.scatter)
 
     def described(self) -> dict[str, Any]:
         """Return the kind of the pulse and the quantities that do not vary, by name."""
-        return {"pulse": self.kind} | self.fixed | self.stated
+        own = self.fixed | table_attributes(self.table) | scatter_attributes(self.scatter)
+        return {"pulse": self.kind} | own | self.stated
 
 
 def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:
@@ -548,8 +704,7 @@ def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:
     if not isinstance(forcing, Pulse):
         raise WrongType("system", "have a pulse as base motion, rk.Pulse", Text(type(forcing).__name__))
     refuse_if(system.braces is not None, "system", "have no braces for this survey", system)
-    check_constant_restitution(system)
-    own = {"restitution": system.restitution}
+    own = {"restitution": system.restitution} | left_quantities(system.left)
     if system.critical_angle is not None:
         own["critical_angle"] = system.critical_angle
     required = {"amplitude", "frequency"}
@@ -557,11 +712,15 @@ def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:
     checked = {
         name: quantity_axis(name, axes[name], "" if name in required else "the system") for name in named
     }
-    return PulseSpec(checked, {name: own[name] for name in own if name not in checked}, kind=forcing.kind)
+    if "restitution" in checked:
+        check_uniform(system.restitution_table, "an axis of an overturning spectrum")
+    fixed = {name: own[name] for name in own if name not in checked}
+    table, scatter = system.restitution_table, system.restitution_scatter
+    return PulseSpec(checked, fixed, kind=forcing.kind, table=table, scatter=scatter)
 
 
 def by_period(system: System) -> dict[str, float]:
-    """Return the quantities of a system on a harmonic base: its period but not its frequency."""
+    """Return the quantities of a system on a harmonic base: its period but not its frequency; and the table of its restitution."""
     check_periodic(system, None)
-    check_constant_restitution(system)
-    return {name: value for name, value in quantities(system).items() if name != "frequency"}
+    table: dict[str, Any] = {TABLE: system.restitution_table} if system.restitution_table else {}
+    return {name: value for name, value in quantities(system).items() if name != "frequency"} | table

@@ -13,13 +13,14 @@ from rocking.model.block import RECTANGLE, Block
 from rocking.model.block_formulas import frequency_parameter
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import RecordSet, record_set
+from rocking.model.restitution import Restitution
 from rocking.model.survey_results import OverturningSpectrum, RockingSpectrum
 from rocking.model.system import System
-from rocking.model.validation import Incomplete, instance
+from rocking.model.validation import Incomplete, Refusal, instance
 from rocking.survey.ending_measures import ending, pulse_ending
 from rocking.survey.incremental_dynamic_analysis import with_names
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import MotionSpec, motion_spec, pulse_spec
+from rocking.survey.spec import HOUSNER, MotionSpec, left_quantities, motion_spec, pulse_spec
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,8 +40,9 @@ def rocking_spectrum(
     inertia_ratio: float | None = None,
     intensity: str = "scale",
     angle: Any = 0.0,
-    polarity: Any = 1.0,
-    model: str = "slender",
+    polarity: Any = "+",
+    model: str = "full",
+    normalised_by: str | None = None,
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
@@ -56,28 +58,34 @@ def rocking_spectrum(
     records : RecordSet, GroundMotion or iterable of GroundMotion
         Ground motions.
     block : Block, optional
-        Block of which some quantities vary. Default: none; then give its size and its slenderness.
+        Block of which some quantities vary; of an unsymmetric one only the size. Default: none; then give its size and its
+        slenderness.
     levels : float or array (n,)
         Levels of the intensity measure to which each record is scaled. Default: 1, with the measure "scale" the record as it is.
     size : float or array (n,), optional
         Distance R from a corner to the centre of mass, in metres, in [0.001, 1000]. Default: that of the block.
     slenderness : float or array (n,), optional
         Critical angle θcr in rad. Default: that of the block.
-    restitution : float or array (n,), optional
-        Coefficient of restitution e in [0, 1]. Default: that of the block, or Housner's value for each slenderness.
+    restitution : float, array (n,) or Restitution, optional
+        Coefficient of restitution e in [0, 1], or a law. Default: that of the block, or Housner's value for each slenderness.
     inertia_ratio : float, optional
         Io/(MR²), as for `Block`. Default: that of the block, or 4/3, a uniform rectangle.
     intensity : str
-        Intensity measure of the levels: "scale" (a factor), "pga" (m/s²), "pga-g", "pgv" (m/s), "pgd" (m) or "arias" (m/s).
-        Measures that depend on the block are "pga-ratio", PGA/(g tan θcr), and "pgv-ratio", α PGV/(g tan θcr). A column of the
-        records is a measure, too. Default: "scale".
+        Intensity measure of the levels: "scale" (a factor), "pga" (m/s²), "pga-g", "pgv" (m/s), "pgd" (m), "arias" (m/s) or
+        "cav" (m/s). Those of the response spectrum, in m/s², are "sa(T)", "sa(T, ζ)" and the mean "sa-avg(T₁, T₂, …)", with
+        periods in s, such as "sa(0.5)". Measures that depend on the block are "pga-ratio", PGA/(g tan θcr), and "pgv-ratio",
+        α PGV/(g tan θcr). A column of the records is a measure, too. Default: "scale".
     angle : float or array (n,)
         Initial angle Θ in units of θcr. Default: 0, at rest.
-    polarity : float or array
-        1, -1 for the opposite direction of the motion, or [-1, 1] for both. Default: 1.
+    polarity : {"+", "-", "both", "worse"}
+        Direction of the motion: as recorded, reversed, both as an axis, or of both runs the one
+        that is worse for the block. A symmetric block at rest does not distinguish them. 1, -1 and [-1, 1] are allowed, too.
+        Default: "+".
     model : {"slender", "full"}
-        Equation of motion, as for `Block.system`. With "full", `certified` is not assessed and `margin` is NaN.
-        Default: "slender".
+        Equation of motion, as for `Block.system`.
+        Default: "full".
+    normalised_by : {"angle", "tangent"}, optional
+        Unit of the base acceleration of slender blocks, as for `Block.system`. Default: "tangent".
     store, executor, progress, repair
         As in `parametric_map`.
 
@@ -111,11 +119,17 @@ def rocking_spectrum(
     (('size',), True)
     """
     chosen = record_set(records)
+    law, own_law = HOUSNER if block is None else instance("block", block, Block).law, restitution
+    if restitution is not None:
+        law = restitution if isinstance(restitution, Restitution) else HOUSNER
+        restitution = law.value if isinstance(restitution, Restitution) else restitution
     sizes = {"size": size, "slenderness": slenderness, "restitution": restitution}
     if block is not None:
-        sizes = quantities_of_block(block) | {
-            name: value for name, value in sizes.items() if value is not None
-        }
+        given = {name: value for name, value in sizes.items() if value is not None}
+        sizes = quantities_of_block(block) | given
+        _check_shape(block, slenderness=slenderness, restitution=own_law, inertia_ratio=inertia_ratio)
+        if own_law is not None:
+            sizes["restitution"] = restitution
         inertia_ratio = block.inertia_ratio if inertia_ratio is None else inertia_ratio
     missing = [f"{{{name}}}" for name in ("size", "slenderness") if sizes.get(name) is None]
     if missing:
@@ -127,15 +141,28 @@ def rocking_spectrum(
         intensity=intensity,
         inertia_ratio=RECTANGLE if inertia_ratio is None else inertia_ratio,
         model=model,
+        normalised_by=normalised_by,
+        law=law,
     )
     data = run_survey(spec, ending(ROCKING_SPECTRUM), store, executor, progress=progress, repair=repair)
     return RockingSpectrum(described(data, spec, chosen))
 
 
 def quantities_of_block(block: Block) -> dict[str, Any]:
-    """Return size, slenderness and restitution of a block; the latter is None if Housner's value applies."""
-    restitution = None if instance("block", block, Block).has_housner_restitution else block.restitution
-    return {"size": block.radius, "slenderness": block.critical_angle, "restitution": restitution}
+    """Return size, slenderness and restitution of a block, and its left side if it differs.
+
+    The restitution is None if its law is no number and the sides are equal.
+    """
+    restitution = block.restitution if instance("block", block, Block).left is not None else block.law.value
+    sizes = {"size": block.radius, "slenderness": block.critical_angle, "restitution": restitution}
+    return sizes | left_quantities(block.left)
+
+
+def _check_shape(block: Block, **given: Any) -> None:
+    """Refuse quantities of the shape for an unsymmetric block, of which only the size may vary."""
+    for name, value in given.items():
+        if block.left is not None and value is not None:
+            raise Refusal(name, "be omitted for an unsymmetric block, whose shape is that of {block}", value)
 
 
 def described(data: xr.Dataset, spec: MotionSpec, records: RecordSet) -> xr.Dataset:
@@ -176,7 +203,8 @@ def overturning_spectrum(
     system : System
         Block under one pulse, of any amplitude and duration, without braces.
     amplitude : array (n,)
-        Ascending amplitudes A = a/(g θcr), in [0, 1000].
+        Ascending amplitudes A in the unit of the system, in [0, 1000]: g θcr, or g tan θcr as `System.normalised_by` says.
+        `system.block.amplitude(acceleration)` converts m/s².
     frequency : array (m,)
         Ascending normalised frequencies Ω = ω/α, in [0.001, 1000]. The pulse lasts one period 2π/Ω, a half-sine half
         of it. For a Ricker pulse the period is Tp.

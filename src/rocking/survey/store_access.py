@@ -48,16 +48,22 @@ def _place(path: str | os.PathLike[str]) -> Path:
     return place
 
 
-def check_folder_of_stores(path: str | os.PathLike[str], names: re.Pattern[str]) -> Path:
-    """Return the path of a folder that holds only stores with given names; StoreError if it is neither this nor a new or empty folder."""
+def store_in(path: str | os.PathLike[str] | None, name: str, number: int) -> Path | None:
+    """Return the store with a number in a folder that holds only such stores, as "round-0"; None without a folder.
+
+    StoreError is raised for a folder that is neither this nor new or empty.
+    """
+    if path is None:
+        return None
     place = _place(path)
     if not place.exists():
-        return check_store(path)
-    others = sorted(each.name for each in place.iterdir() if not names.fullmatch(each.name))
+        check_store(path)
+    names = place.iterdir() if place.exists() else ()
+    others = sorted(each.name for each in names if not re.fullmatch(rf"{name}-\d+", each.name))
     if others:
         what = "the store of another survey" if ROOT in others else f"a folder that contains {others[0]!r}"
         raise StoreError(something_else(Path(path), what))
-    return Path(path)
+    return Path(path) / f"{name}-{number}"
 
 
 def something_else(folder: Path, what: str) -> str:

@@ -22,6 +22,7 @@ FORMAT, READABLE = 3, (2, 3)
 """Version of the file format, and those that can be read. Tiles of format 2 have no digests."""
 DEFAULT_DIGITS, ALL_DIGITS = 6, 17
 """Digits of differing numbers in messages: as many as show the difference."""
+DIGESTS = {"records_sha256": "ground motions", "values_sha256": "values of the parameter"}
 MAX_HALVINGS = 31
 MAX_DIFFERENCES = 160
 """Longest text of the differences of two surveys, in characters."""
@@ -202,8 +203,8 @@ def _flat(metadata: Mapping[str, Any]) -> dict[str, Any]:
 def _difference(name: str, there: Any, here: Any) -> str:
     if name == "over":
         return f"the axes are {' and '.join(map(str, there or ()))} there and {' and '.join(here)} here"
-    if name == "records_sha256":
-        return "the ground motions are others"
+    if name in DIGESTS:
+        return f"the {DIGESTS[name]} are others"
     if isinstance(there, list) and isinstance(here, list):  # entries of only one of the lists
         there, here = (
             [each for each in there if each not in here],

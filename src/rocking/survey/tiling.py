@@ -134,8 +134,10 @@ def finest(spec: SurveySpec) -> list[Level]:
     return [Level(0, spec.axes, None, even_edges(spec.axes, tile_edges(spec.shape, spec.in_a_tile)))]
 
 
-def tile_edges(shape: Sequence[int], largest: int) -> tuple[int, ...]:
-    """Return the edges of tiles of at most `largest` points: short axes are undivided, the others divided evenly."""
+def tile_edges(shape: Sequence[int], largest: int | None) -> tuple[int, ...]:
+    """Return the edges of tiles of at most `largest` points: short axes are undivided, the others divided evenly; None: one tile."""
+    if largest is None:
+        return tuple(shape)
     edges, room = [0] * len(shape), largest
     for left, place in enumerate(sorted(range(len(shape)), key=lambda place: shape[place])):
         most = int(room ** (1 / (len(shape) - left)) + 1e-9)

@@ -9,7 +9,7 @@ from statistics import NormalDist
 import numpy as np
 from attrs import frozen
 
-from rocking.kernels.classify import verdict_record as kernel
+from rocking.kernels.classify import verdict as kernel
 from rocking.model.share import LEVEL, shares_of
 from rocking.model.survey_results import UncertaintyExponent
 from rocking.model.system import System

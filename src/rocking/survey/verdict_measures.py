@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
+from attrs import evolve
 
 from rocking.kernels import batch
-from rocking.kernels.classify import attractor_anchor, results
-from rocking.kernels.classify import verdict_record as kernel
+from rocking.kernels.classify import verdict as kernel
 from rocking.model.system import State, System, system_of
 from rocking.model.verdict import Criterion, Kind
 from rocking.motion.simulate import simulate
@@ -18,17 +18,18 @@ from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.spec import SYSTEM, Points, points
 
 
-def verdicts(points: Points, options: Mapping[str, int], stop: np.ndarray) -> results.ResultArrays | None:
+def verdicts(points: Points, options: Mapping[str, int], stop: np.ndarray) -> kernel.ResultArrays | None:
     """Return the verdicts at points, with the conventions of `classify`; None if another thread sets `stop`."""
-    result: results.ResultArrays | None = batch.classify_batch(
-        *points, options["max_cycles"], options["max_period"], stop
+    counts = options["max_cycles"], options["max_period"]
+    result: kernel.ResultArrays | None = batch.classify_batch(
+        points.systems, points.starts, *counts, stop, points.law
     )
     return result
 
 
-def anchors(points: Points, judged: results.ResultArrays) -> np.ndarray:
+def anchors(points: Points, judged: kernel.ResultArrays) -> np.ndarray:
     """Return a representative state (n, 2) of the orbit at each point; NaN if there is none."""
-    return np.asarray(attractor_anchor.anchors_of(*points, judged))
+    return np.asarray(batch.anchors_of(points.systems, points.starts, judged, points.law))
 
 
 MAX_FOLLOWED = 20_000
@@ -56,6 +57,9 @@ def averages(points: Points, chaotic: np.ndarray, cycles: int, stop: np.ndarray)
         if stop[0]:
             break
         system = system_of(dict(zip(SYSTEM, points.systems[k].tolist(), strict=True)))
+        if len(points.law):
+            first, *rows = points.law.tolist()
+            system = evolve(system, restitution=first[1], restitution_table=rows)
         late = _late_angles(system, State(*points.starts[k]), count)
         means = late[: late.size // BATCHES * BATCHES].reshape(BATCHES, -1).mean(axis=1)
         values[k] = means.mean(), means.std(ddof=1) / math.sqrt(BATCHES)
@@ -189,7 +193,7 @@ def classify_points(
     return responses_at(points(values, fixed), {"max_cycles": max_cycles, "max_period": max_period}, stop)
 
 
-def variables_of(arrays: results.ResultArrays) -> Arrays:
+def variables_of(arrays: kernel.ResultArrays) -> Arrays:
     """Return the results of the classification by the names of the variables."""
     open_ = np.flatnonzero(arrays.kind == kernel.UNDETERMINED)
     unweighed = open_[~np.isin(arrays.ground[open_], kernel.WEIGHED)]

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model.block import Block
-from rocking.model.validation import instance, reals
+from rocking.model.block import Block, symmetric_block
+from rocking.model.validation import reals
 from rocking.theory.arguments import plain, sizes, together
 from rocking.theory.free_rocking import CRITICAL_ENERGY, energy, heteroclinic_orbit
 from rocking.theory.melnikov import damping
@@ -52,7 +52,7 @@ def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) ->
     >>> round(rk.theory.physical_acceleration(block, 0.1, 0.0), 4)
     -1.0345
     """
-    instance("block", block, Block)
+    symmetric_block(block)
     radians, base = together(
         radians=sizes("radians", radians), base_acceleration=sizes("base_acceleration", base_acceleration)
     )
@@ -174,7 +174,7 @@ def physical_critical_energy(block: Block) -> float:
     >>> round(rk.theory.physical_critical_energy(rk.Block(2.0, 0.5)), 4)
     0.2141
     """
-    return CRITICAL_ENERGY * _per_inertia(instance("block", block, Block)) * block.critical_angle
+    return CRITICAL_ENERGY * _per_inertia(symmetric_block(block)) * block.critical_angle
 
 
 def physical_heteroclinic_orbit(block: Block, seconds: Any, orbit: str = "upper") -> tuple[Any, Any]:
@@ -217,13 +217,13 @@ def physical_heteroclinic_orbit(block: Block, seconds: Any, orbit: str = "upper"
     (0.0, True)
     """
     reals("seconds", seconds)
-    angle, velocity = heteroclinic_orbit(instance("block", block, Block).time(seconds), orbit)
+    angle, velocity = heteroclinic_orbit(symmetric_block(block).time(seconds), orbit)
     return block.radians(angle), block.radians_per_second(velocity)
 
 
 def _state(block: Block, radians: Any, radians_per_second: Any) -> tuple[Any, Any]:
     """Return Θ and Θ' of states in radians and rad/s, after checking them."""
-    instance("block", block, Block)
+    symmetric_block(block)
     angle, velocity = together(
         radians=sizes("radians", radians), radians_per_second=sizes("radians_per_second", radians_per_second)
     )

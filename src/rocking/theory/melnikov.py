@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels.orbits import saddle_manifold
+from rocking.kernels.orbits import manifold
 from rocking.model.quantity import AMPLITUDE, PERIOD, RESTITUTION
 from rocking.model.validation import finite, within
 from rocking.theory.arguments import amplitudes, frequencies, plain, restitutions, side_of, sizes, together
@@ -227,9 +227,7 @@ def _swing(phase: Any, amplitude: Any, period: Any) -> tuple[Any, Any]:
         *together(amplitude=amplitudes(amplitude), period=frequencies(period), phase=sizes("phase", phase))
     )
     swing = np.empty((*forcing[0].shape, 2))
-    saddle_manifold.swings(
-        *(np.ascontiguousarray(each, float).ravel() for each in forcing), swing.reshape(-1, 2)
-    )
+    manifold.swings(*(np.ascontiguousarray(each, float).ravel() for each in forcing), swing.reshape(-1, 2))
     return swing[..., 0], swing[..., 1]
 
 

@@ -54,6 +54,92 @@ def rectangular_pulse_amplitude(duration: Any) -> Any:
     return plain(-1.0 / np.expm1(-between("duration", duration, *DURATIONS)))
 
 
+def falling_triangle_pulse_amplitude(duration: Any) -> Any:
+    """Amplitude A = 1/(1 − (1 − e⁻ᵀ)/T) above which a pulse that jumps to A and falls linearly to 0 overturns a block at rest.
+
+    Parameters
+    ----------
+    duration : float or array
+        Normalised duration T of the pulse, in [1e-6, 1e6].
+
+    Returns
+    -------
+    float or ndarray
+        A in units of g θcr, in the shape of `duration`. It does not depend on the coefficient of restitution.
+
+    Raises
+    ------
+    TypeError
+        If `duration` is not a real number or an array of real numbers.
+    ValueError
+        If `duration` lies outside its range.
+
+    See Also
+    --------
+    triangle_pulse_amplitude : Threshold of a pulse that rises as it falls.
+    rocking.PiecewiseLinear : The pulse as a base motion, of the samples [A, 0].
+
+    Notes
+    -----
+    A push in one direction overturns a slender block at rest if e^{t₀} ∫ e⁻ˣ a(x) dx > 1 from the lift-off at t₀ to its end.
+    Here t₀ = 0. The lowest A is about 2/T of a short pulse, like any of its area, and 1 of a long one.
+
+    Examples
+    --------
+    >>> round(falling_triangle_pulse_amplitude(0.5), 12), falling_triangle_pulse_amplitude(1.0) == math.e
+    (4.693484498723, True)
+    """
+    from scipy.special import hyp1f1
+
+    duration = between("duration", duration, *DURATIONS)
+    # 1 − (1 − e⁻ᵀ)/T = (T/2) ₁F₁(1; 3; −T), without cancellation
+    return plain(2.0 / (duration * hyp1f1(1.0, 3.0, -duration)))
+
+
+def triangle_pulse_amplitude(duration: Any) -> Any:
+    """Amplitude A above which a pulse that rises linearly to A, and falls so to 0, overturns a block at rest.
+
+    A = T/(2t₀) with the time of lift-off t₀ = −ln(2e^{−T/2} − e⁻ᵀ).
+
+    Parameters
+    ----------
+    duration : float or array
+        Normalised duration T of the pulse, in [1e-6, 1e6].
+
+    Returns
+    -------
+    float or ndarray
+        A in units of g θcr, in the shape of `duration`. It does not depend on the coefficient of restitution.
+
+    Raises
+    ------
+    TypeError
+        If `duration` is not a real number or an array of real numbers.
+    ValueError
+        If `duration` lies outside its range.
+
+    See Also
+    --------
+    falling_triangle_pulse_amplitude : Threshold of a pulse that begins with its peak.
+    rocking.PiecewiseLinear : The pulse as a base motion, of the samples [0, A, 0].
+
+    Notes
+    -----
+    The condition of `falling_triangle_pulse_amplitude`, at its limit, is
+    e^{t₀} k {[−(x + 1)e⁻ˣ] from t₀ to T/2 + [−(T − x − 1)e⁻ˣ] from T/2 to T} = 1 with the slope k = 2A/T and t₀ = 1/k.
+    It reduces to e^{−t₀} = 2e^{−T/2} − e⁻ᵀ.
+
+    Examples
+    --------
+    >>> [round(triangle_pulse_amplitude(duration), 12) for duration in (0.5, 2.0)]
+    [4.983389430863, 1.960323544077]
+    """
+    half = 0.5 * between("duration", duration, *DURATIONS)
+    with np.errstate(divide="ignore"):  # that of a long pulse is not used
+        short = -np.log1p(-(np.expm1(-half) ** 2))
+    return plain(half / np.where(half < 0.5, short, half - np.log(2.0 - np.exp(-half))))
+
+
 def half_sine_pulse_amplitude(duration: Any) -> Any:
     """Amplitude A above which half a period of a sine overturns a block at rest, without an impact.
 

@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.orbits import floquet, mode_admissibility, symmetric_mode
+from rocking.kernels import system as numbers
+from rocking.kernels.orbits import floquet
+from rocking.kernels.orbits import modes as kernel
 from rocking.model.orbit import Mode
 from rocking.model.quantity import AMPLITUDE, PERIOD, RESTITUTION
 from rocking.model.validation import Refusal, whole
@@ -214,7 +215,7 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
     beta = numbers.harmonic_parameters(amplitude, omega, period, 0.0, e).forcing.response
     modes = []
     for faster in (True, False):
-        speed, phase, trace = symmetric_mode.closed_form_plain(omega, beta, e, n, faster)
+        speed, phase, trace = kernel.closed_form(omega, beta, e, n, faster)
         if amplitude > 0.0 and speed > 0.0:
             modes.append(_mode(amplitude, period, e, n, speed, phase, trace))
     return modes
@@ -229,7 +230,7 @@ def _mode(
     length = n * math.pi / omega
     common = -1.0 / (1.0 + math.exp(-length))
     other = p.forcing.response * math.cos(phase) / math.expm1(-length)
-    up, peak = mode_admissibility.half_cycle(p, speed, common + other, common - other, length)
+    up, peak = kernel.half_cycle(p, speed, common + other, common - other, length)
     known = 0.5 * trace, (0.5 * trace - e) * (0.5 * trace + e), e * e
     return Mode(
         amplitude=amplitude,
@@ -239,8 +240,8 @@ def _mode(
         velocity=speed,
         phase=phase,
         trace=trace,
-        half_multipliers=floquet.multipliers_plain(*known, False),
-        multipliers=floquet.multipliers_plain(*known, True),
+        half_multipliers=floquet.complex_multipliers(*known, False),
+        multipliers=floquet.complex_multipliers(*known, True),
         admissible=bool(up),
         peak=peak if up else None,
     )

@@ -9,13 +9,13 @@ It leaves afterwards. So neither a small deviation nor returns that come nearer 
 import math
 from typing import NamedTuple
 
-from rocking.kernels.compile_options import INTERNAL
-from rocking.kernels.deferred import njit
-from rocking.kernels.march.progress import Recording
-from rocking.kernels.march.tangent import Tangent, TangentState
-from rocking.kernels.numerics.elementary import size
-from rocking.kernels.orbits.fixed_point import Guess, image_after
+from rocking.kernels.classify.section import deviation_and_miss
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.motion.march import Recording
+from rocking.kernels.motion.tangent import Tangent, TangentState
+from rocking.kernels.numerics.elementary import logarithm, size
 from rocking.kernels.orbits.floquet import adapted_norm, length, multipliers
+from rocking.kernels.orbits.return_map import Guess, image_after
 
 # Step of the difference quotients of the Jacobian. The image keeps clear of the events near the section.
 STEP = 1e-7
@@ -44,7 +44,7 @@ class Curvature(NamedTuple):
     by_velocity: Tangent
 
 
-@njit(**INTERNAL)
+@kernel
 def difference_quotient(after, before, step):
     """Return the difference quotient of two tangents."""
     return Tangent(
@@ -55,7 +55,7 @@ def difference_quotient(after, before, step):
     )
 
 
-@njit(**INTERNAL)
+@kernel
 def curvature(mapping, found, columns, nothing):
     """Return the second derivative of a return map at a fixed point, from two displaced motions with tangents.
 
@@ -78,7 +78,7 @@ def curvature(mapping, found, columns, nothing):
     return Curvature(known, slopes[0], slopes[1])
 
 
-@njit(**INTERNAL)
+@kernel
 def curvature_of_returns(section, row, period, found):
     """Estimate the second derivative of a return map from the last three returns of a motion near a fixed point.
 
@@ -86,10 +86,10 @@ def curvature_of_returns(section, row, period, found):
     (interpolation of Lagrange in the areas between them). Unknown if the directions of two deviations nearly coincide.
     """
     first, second = (
-        deviation_and_bend(section, row, period, found),
-        deviation_and_bend(section, row - period, period, found),
+        deviation_and_miss(section, row, period, found),
+        deviation_and_miss(section, row - period, period, found),
     )
-    third = deviation_and_bend(section, row - 2 * period, period, found)
+    third = deviation_and_miss(section, row - 2 * period, period, found)
     xx, xy, yy, known = (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), True
     for (here, value), (one, _), (two, _) in (
         (first, second, third),
@@ -99,7 +99,7 @@ def curvature_of_returns(section, row, period, found):
         apart = area(one, here)
         known = known and apart * apart >= SPREAD * SPREAD * squared(one) * squared(here)
         weight = 1.0 / (apart * area(two, here))
-        fx, fy = weight * value[0], weight * value[1]
+        fx, fy = weight * (2.0 * value[0]), weight * (2.0 * value[1])
         across = -0.5 * (one[0] * two[1] + one[1] * two[0])
         xx = xx[0] + fx * one[1] * two[1], xx[1] + fy * one[1] * two[1]
         xy = xy[0] + fx * across, xy[1] + fy * across
@@ -107,23 +107,13 @@ def curvature_of_returns(section, row, period, found):
     return Curvature(known, Tangent(xx[0], xx[1], xy[0], xy[1]), Tangent(xy[0], xy[1], yy[0], yy[1]))
 
 
-@njit(**INTERNAL)
-def deviation_and_bend(section, row, period, found):
-    """Return the deviation z one period before a row, and D2P(z, z) from the return to the row."""
-    before, tangent = row - period, found.image.tangent
-    x, y = section[before, 0] - found.angle, section[before, 1] - found.velocity
-    to_x = section[row, 0] - found.angle - (tangent.a * x + tangent.c * y)
-    to_y = section[row, 1] - found.velocity - (tangent.b * x + tangent.d * y)
-    return (x, y), (2.0 * to_x, 2.0 * to_y)
-
-
-@njit(**INTERNAL)
+@kernel
 def squared(vector):
     """Return the squared length of a vector."""
     return vector[0] * vector[0] + vector[1] * vector[1]
 
 
-@njit(**INTERNAL)
+@kernel
 def apply(bend, first, second):
     """Return D2P(first, second) of two vectors."""
     one, two, (x, y) = bend.by_angle, bend.by_velocity, second
@@ -133,7 +123,7 @@ def apply(bend, first, second):
     )
 
 
-@njit(**INTERNAL)
+@kernel
 def eigenvector(tangent, value):
     """Return the right eigenvector, of unit length, of the matrix whose columns are (a, b) and (c, d); ``value`` is real."""
     x, y = tangent.c, value - tangent.a
@@ -144,19 +134,19 @@ def eigenvector(tangent, value):
     return x * shorter, y * shorter
 
 
-@njit(**INTERNAL)
+@kernel
 def area(first, second):
     """Return the determinant of two vectors."""
     return first[0] * second[1] - first[1] * second[0]
 
 
-@njit(**INTERNAL)
+@kernel
 def component(vector, along, across):
     """Return the component of a vector along the first of two others."""
     return area(vector, across) / area(along, across)
 
 
-@njit(**INTERNAL)
+@kernel
 def excess_in_ball(bend, tangent, radius, x, y, residual):
     """Return the second-order terms at (x, y) over their limit, in a norm in which the linear map shrinks.
 
@@ -178,7 +168,7 @@ def excess_in_ball(bend, tangent, radius, x, y, residual):
     return 0.5 * math.sqrt(large) * (length(norm, x, y) + doubt) / (HALF_WAY * (1.0 - shrinks))
 
 
-@njit(**INTERNAL)
+@kernel
 def excess_of_real(bend, tangent, rho, sigma, x, y, residual):
     """Return the second-order terms at (x, y) over their limit, and the multiplier by which they shrink; real multipliers.
 
@@ -200,7 +190,7 @@ def excess_of_real(bend, tangent, rho, sigma, x, y, residual):
     return abs(q) * (towards + kicks + doubt) / (HALF_WAY * (1.0 - rho)), shrinks
 
 
-@njit(**INTERNAL)
+@kernel
 def excess_of_complex(bend, tangent, real, imaginary, x, y):
     """Return the second-order terms at (x, y) over their limit, for the multiplier l = ``real`` + i ``imaginary``.
 
@@ -226,7 +216,7 @@ def excess_of_complex(bend, tangent, real, imaginary, x, y):
     return bent * size(area((x, y), p), area((x, y), q)) / (BENDING * between * between)
 
 
-@njit(**INTERNAL)
+@kernel
 def slow_part_shrinks(section, row, period, found, rho, sigma):
     """Return whether the slow part of the deviation shrinks in each of the last returns, and after transients.
 
@@ -249,7 +239,7 @@ def slow_part_shrinks(section, row, period, found, rho, sigma):
     return least >= needed and last - damping / (1.0 - damping) * spread >= needed
 
 
-@njit(**INTERNAL)
+@kernel
 def excess_at(mapping, found, section, row, columns, nothing):
     """Return the second-order terms over their limit at a row of the section near an orbit.
 
@@ -282,11 +272,11 @@ def excess_at(mapping, found, section, row, columns, nothing):
     return excess, shrinks
 
 
-@njit(**INTERNAL)
+@kernel
 def departure(mapping, found, section, row, columns, nothing):
     """Return ``excess_at`` a row, and the predicted number of cycles until it is at most 1; 0 if unknown."""
     excess, shrinks = excess_at(mapping, found, section, row, columns, nothing)
     if excess <= 1.0 or not (0.0 < shrinks < 1.0 and excess < math.inf):
         return excess, 0
-    returns = math.ceil(min(1.0 + math.log(excess) / -math.log(shrinks), MAX_RETURNS))
+    returns = math.ceil(min(1.0 + logarithm(excess) / -logarithm(shrinks), MAX_RETURNS))
     return excess, mapping.cycles * returns

@@ -4,18 +4,24 @@ import math
 from typing import NamedTuple
 
 from rocking.kernels.classify.approach import departure
-from rocking.kernels.classify.lazy_section import evaluate_lazy_rows
-from rocking.kernels.classify.least_period import SAME, least_period
-from rocking.kernels.classify.recurrence import approached, closest_return
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.contract import largest_on
-from rocking.kernels.forcing.periodic import later, nearest_mode
-from rocking.kernels.march.initial_state import UNKNOWN
-from rocking.kernels.march.tangent import Tangent
-from rocking.kernels.numerics.elementary import size
+from rocking.kernels.classify.section import (
+    apart,
+    approached,
+    closest_return,
+    deviation_and_miss,
+    evaluate_lazy_rows,
+)
+from rocking.kernels.contract import is_symmetric, largest_on, later, nearest_mode
+from rocking.kernels.library.export import entry_point
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.library.signature import Floats2
+from rocking.kernels.motion.march import UNKNOWN, Recording
+from rocking.kernels.motion.tangent import Tangent
+from rocking.kernels.numerics.elementary import logarithm, size
 from rocking.kernels.numerics.replace_fields import replacing
-from rocking.kernels.orbits.fixed_point import (
+from rocking.kernels.orbits.floquet import adapted_norm, length, spectral_radius
+from rocking.kernels.orbits.modes import Nearest, orbit_of_mode
+from rocking.kernels.orbits.return_map import (
     NEARBY,
     UNBOUNDED,
     FixedPoint,
@@ -24,10 +30,12 @@ from rocking.kernels.orbits.fixed_point import (
     Patience,
     ReturnMap,
     find_fixed_point,
+    image_after,
 )
-from rocking.kernels.orbits.floquet import adapted_norm, length, spectral_radius
-from rocking.kernels.orbits.mode_orbit import orbit_of_mode
-from rocking.kernels.orbits.symmetric_mode import Nearest
+
+# States of an orbit closer than this are equal.
+SAME = 1e-9
+
 
 # Candidates for Newton's method, in this order. REFINED repeats the search with the least period of the orbit
 # found.
@@ -54,8 +62,38 @@ NEUTRAL = 1e-10
 MUCH_NEARER = 0.5
 # Distances below this are rounding.
 ROUNDING = 1e-12
-
 NOT_YET, REACHED, ON_EVENT = range(3)
+
+
+@entry_point
+def repetition(
+    rows: Floats2, halves: Floats2, angle: float, velocity: float, lag: int, same: float
+) -> tuple[int, bool]:
+    """Return least period and mirror symmetry (bool) of an orbit of ``lag`` cycles through a state.
+
+    ``rows`` are its states on any section, one cycle apart. ``halves`` are those from half a cycle after the
+    state on. States closer than ``same`` are equal.
+    """
+    period = lag
+    for divisor in range(1, min(lag, rows.shape[0])):
+        if lag % divisor == 0 and apart(rows, divisor, 0) <= same:
+            period = divisor
+            break
+    half = (period - 1) // 2
+    mirrored = period % 2 == 1 and size(halves[half, 0] + angle, halves[half, 1] + velocity) <= same
+    return period, mirrored
+
+
+@kernel
+def least_period(p, clocked, found, lag, workspace):
+    """Return least period, mirror symmetry and image of an orbit that closes after ``lag`` cycles."""
+    scratch, nothing = workspace.scratch, workspace.nothing
+    guess = Guess(found.angle, found.velocity, found.image.waits)
+    recording = Recording(0.5 * p.forcing.period, scratch, nothing.events, True, False)
+    image = image_after(ReturnMap(clocked, lag, 0.0, 1.0), guess, recording, nothing.tangent)
+    same = max(SAME, 100.0 * found.error)
+    period, mirrored = repetition(scratch, scratch, found.angle, found.velocity, lag, same)
+    return period, mirrored and is_symmetric(p), image
 
 
 class PeriodicityCheck(NamedTuple):
@@ -72,13 +110,13 @@ class PeriodicityCheck(NamedTuple):
     work: int
 
 
-@njit(**INTERNAL)
+@kernel
 def loses(p, impacts, brace_hits):
     """Return whether a motion with the given numbers of impacts dissipates energy."""
     return (p.block.restitution < 1.0 and impacts > 0) or (p.block.brace_restitution < 1.0 and brace_hits > 0)
 
 
-@njit(**INTERNAL)
+@kernel
 def on_event(p, section, row):
     """Return whether an impact lies within CLEARANCE of a row of the section."""
     near = CLEARANCE * p.forcing.period
@@ -106,7 +144,7 @@ answered = replacing(PeriodicityCheck, "answer", "coming", "work")
 with_work = replacing(PeriodicityCheck, "work")
 
 
-@njit(**INTERNAL)
+@kernel
 def known_candidate(p, clocked, orbit, run, section, since):
     """Return the candidate of the known orbit, found ``since`` cycles ago; none if the section is too short."""
     row = run.count - 1 - since % max(orbit.period, 1)
@@ -117,7 +155,7 @@ def known_candidate(p, clocked, orbit, run, section, since):
     )
 
 
-@njit(**INTERNAL)
+@kernel
 def approached_candidate(p, clocked, run, section, most_lag):
     """Return the limit of the last returns, or the symmetric mode close to it."""
     row = run.count - 1
@@ -129,7 +167,7 @@ def approached_candidate(p, clocked, run, section, most_lag):
     return Candidate(lag, row, Guess(angle, velocity, waits), UNBOUNDED, left, mode)
 
 
-@njit(**INTERNAL)
+@kernel
 def closest_candidate(p, run, section, most_lag, most_work, mode):
     """Return the closest return of the last state, if it is close enough; far from an orbit it needs much work."""
     row = run.count - 1
@@ -139,7 +177,7 @@ def closest_candidate(p, run, section, most_lag, most_work, mode):
     return Candidate(lag if away <= CLOSE else 0, row, guess, most_work, math.inf, mode)
 
 
-@njit(**INTERNAL)
+@kernel
 def propose(p, clocked, run, section, most_lag, most_work, candidate, trying):
     """Return the next candidate; the known one and the refined one stay as they are."""
     if trying == APPROACHED:
@@ -149,14 +187,7 @@ def propose(p, clocked, run, section, most_lag, most_work, candidate, trying):
     return candidate
 
 
-@njit(**INTERNAL)
-def refined_candidate(candidate, found, period):
-    """Return the fixed point that was found, over its least period."""
-    guess = Guess(found.angle, found.velocity, UNKNOWN)
-    return Candidate(period, candidate.row, guess, UNBOUNDED, math.inf, candidate.mode)
-
-
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def orbit_near(clocked, candidate, workspace):
     """Return the orbit that Newton's method finds from a candidate, as a check without a result yet."""
     lag, mode, symmetric, peak = candidate.lag, candidate.mode, False, math.nan
@@ -173,30 +204,26 @@ def orbit_near(clocked, candidate, workspace):
     return PeriodicityCheck(NOT_YET, lag, symmetric, found, peak, math.nan, math.nan, 0, found.work)
 
 
-class Comparison(NamedTuple):
-    """Comparison of a motion with an orbit; fields as in ``PeriodicityCheck``."""
-
-    answer: int
-    distance: float
-    excess: float
-    coming: int
-    work: int
-
-
-@njit(**INTERNAL)
+@kernel
 def compare_to_second_order(p, clocked, candidate, found, workspace):
-    """Compare a motion with an orbit by ``compare``. If it may have reached the orbit, test its ``departure``."""
+    """Compare a motion with an orbit by ``compare``. If it may have reached the orbit, test its ``departure``.
+
+    Returns
+    -------
+    tuple of (int, float, float, int, int)
+        Answer, distance, excess, coming and work, as in ``PeriodicityCheck``.
+    """
     section, row = workspace.section, candidate.row
     answer, away, coming = compare(p, section, row, candidate.lag, found)
     if answer != REACHED or away <= ROUNDING:
-        return Comparison(answer, away, math.nan, coming, 0)
+        return answer, away, math.nan, coming, 0
     mapping = ReturnMap(clocked, candidate.lag, 0.0, 1.0)
     excess, coming = departure(mapping, found, section, row, workspace.trial, workspace.nothing)
     work = 2 * (found.image.impacts + found.image.brace_hits)
-    return Comparison(REACHED if excess <= 1.0 else NOT_YET, away, excess, coming, work)
+    return (REACHED if excess <= 1.0 else NOT_YET), away, excess, coming, work
 
 
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neutral):
     """Compare a motion with the periodic orbit that its last states approach.
 
@@ -220,21 +247,23 @@ def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neut
             work += orbit.work
             if not orbit.found.converged:
                 continue
-        close = compare_to_second_order(p, clocked, candidate, orbit.found, workspace)
-        work += close.work
-        orbit = measured(orbit, close.distance, close.excess)
-        if close.answer != REACHED and not (neutral and close.distance <= NEUTRAL):
-            coming = max(close.coming - (count - 1 - candidate.row), 0)
+        answer, distance, excess, coming, compared = compare_to_second_order(
+            p, clocked, candidate, orbit.found, workspace
+        )
+        work += compared
+        orbit = measured(orbit, distance, excess)
+        if answer != REACHED and not (neutral and distance <= NEUTRAL):
+            coming = max(coming - (count - 1 - candidate.row), 0)
             enough = 1.0 if attracts(p, orbit.found.image) else MUCH_NEARER
             # a motion on another orbit stays as far away, but for rounding
-            nearer = close.distance < enough * known.distance - ROUNDING
-            if now == KNOWN and close.answer == NOT_YET and nearer:
+            nearer = distance < enough * known.distance - ROUNDING
+            if now == KNOWN and answer == NOT_YET and nearer:
                 return answered(orbit, NOT_YET, coming, work)
             # An orbit found repeatedly at different places gives no prediction.
             coming = coming if now == APPROACHED and known.period == 0 else 0
-            if now != KNOWN or close.answer == ON_EVENT:
-                seen = answered(orbit, close.answer, coming, work)
-            if close.answer == ON_EVENT or now == APPROACHED:
+            if now != KNOWN or answer == ON_EVENT:
+                seen = answered(orbit, answer, coming, work)
+            if answer == ON_EVENT or now == APPROACHED:
                 break
             continue
         if orbit.symmetric:
@@ -243,25 +272,27 @@ def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neut
         work += whole.impacts + whole.brace_hits
         if period == candidate.lag:
             return answered(with_shape(orbit, period, mirrored, whole.peak), REACHED, 0, work)
-        candidate, trying = refined_candidate(candidate, orbit.found, period), REFINED
+        guess = Guess(orbit.found.angle, orbit.found.velocity, UNKNOWN)
+        candidate = Candidate(period, candidate.row, guess, UNBOUNDED, math.inf, candidate.mode)
+        trying = REFINED
     return with_work(seen, work)
 
 
-@njit(**INTERNAL)
+@kernel
 def constant_image(impacts, brace_hits):
     """Return an image that does not depend on the state: its derivative, and so both multipliers, are zero."""
     nothing = Tangent(0.0, 0.0, 0.0, 0.0)
     return MapImage(False, math.nan, math.nan, nothing, impacts, brace_hits, math.nan, UNKNOWN)
 
 
-@njit(**INTERNAL)
+@kernel
 def no_cycle(work):
     """Return the check that stands for no orbit."""
     nothing = FixedPoint(False, math.nan, math.nan, constant_image(-1, -1), math.nan, math.nan, 0)
     return PeriodicityCheck(NOT_YET, 0, False, nothing, math.nan, math.nan, math.nan, 0, work)
 
 
-@njit(**INTERNAL)
+@kernel
 def attracts(p, image):
     """Return whether an orbit is stable and dissipates energy.
 
@@ -270,7 +301,7 @@ def attracts(p, image):
     return spectral_radius(image.tangent) < 1.0 and loses(p, image.impacts, image.brace_hits)
 
 
-@njit(**INTERNAL)
+@kernel
 def compare(p, section, row, period, found):
     """Compare the last returns with an orbit by the Floquet criterion.
 
@@ -304,9 +335,7 @@ def compare(p, section, row, period, found):
     for k in range(RETURNS):
         after = row - k * period
         before = after - period
-        x, y = section[before, 0] - angle, section[before, 1] - velocity
-        to_x = section[after, 0] - angle - (tangent.a * x + tangent.c * y)
-        to_y = section[after, 1] - velocity - (tangent.b * x + tangent.d * y)
+        (x, y), (to_x, to_y) = deviation_and_miss(section, after, period, found)
         impacts, brace_hits = section[after, 2] - section[before, 2], section[after, 3] - section[before, 3]
         left = length(norm, x, y)
         off = (length(norm, to_x, to_y) - doubt) / (max(NONLINEAR * (1.0 - radius), BENT) * left)
@@ -314,7 +343,7 @@ def compare(p, section, row, period, found):
         comes = landed <= (1.0 - APPROACH * (1.0 - radius)) * left
         near = (comes and off <= 1.0) or size(x, y) <= ROUNDING
         if not near or impacts != image.impacts or brace_hits != image.brace_hits:
-            more = math.log(off) / -math.log(radius) - 1.0 if k == 0 and off > 1.0 else -float(k)
+            more = logarithm(off) / -logarithm(radius) - 1.0 if k == 0 and off > 1.0 else -float(k)
             coming = period * math.ceil(min(RETURNS + more, MAX_FORETOLD))
             return NOT_YET, distance, coming if comes else 0
     return REACHED, distance, 0

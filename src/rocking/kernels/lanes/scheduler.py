@@ -9,22 +9,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.classify.classifier_state import ClassifierState, next_look, opened, with_run
-from rocking.kernels.classify.decision_cascade import checkpoint_unstable, evaluate_checkpoint, over_batch
-from rocking.kernels.classify.leg import march_leg
-from rocking.kernels.classify.quasi_periodicity import section_needed
-from rocking.kernels.classify.reset import begin_tangent
-from rocking.kernels.classify.results import ResultArrays, store_result
-from rocking.kernels.classify.verdict_record import OPEN
-from rocking.kernels.classify.workspace import LEG
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, LONG
-from rocking.kernels.deferred import njit
-from rocking.kernels.entry_point import entry_point
+from rocking.kernels.arc.slender_cosine import exponentials
+from rocking.kernels.classify.cascade import (
+    LEG,
+    ClassifierState,
+    checkpoint_unstable,
+    evaluate_checkpoint,
+    march_leg,
+    next_look,
+    opened,
+    over_batch,
+    with_run,
+)
+from rocking.kernels.classify.resets import begin_tangent
+from rocking.kernels.classify.torus import section_needed
+from rocking.kernels.classify.verdict import OPEN, ResultArrays, store_result
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
-from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, parameters_from_row
-from rocking.kernels.forcing.harmonic.solution import exponentials
-from rocking.kernels.lanes.log import log_arcs
-from rocking.kernels.lanes.scalar_fallback import request_of_leg, resolve_alone, update_peak
+from rocking.kernels.lanes.scalar import log_arcs, request_of_leg, resolve_alone, update_peak
 from rocking.kernels.lanes.state import (
     END_LEG,
     IDLE,
@@ -34,20 +35,24 @@ from rocking.kernels.lanes.state import (
     SLOWEST,
     TO_SCALAR,
     UPDATE_PEAK,
-)
-from rocking.kernels.lanes.step import advance, advance_between, apply_events, apply_impacts
-from rocking.kernels.lanes.transfer import (
+    LaneWorkspace,
     flights_by_now,
+    lane_workspace,
     load_block,
+    load_work,
     read_growth,
     set_collection,
     set_difference,
     set_leg,
     status_of,
+    store_work,
     unload_block,
 )
-from rocking.kernels.lanes.workspace import LaneWorkspace, lane_workspace, load_work, store_work
-from rocking.kernels.signature import Floats2, Integers1
+from rocking.kernels.lanes.step import advance, advance_between, apply_events, apply_impacts
+from rocking.kernels.library.export import entry_point
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.library.signature import Floats2, Integers1
+from rocking.kernels.system import Cosine, Slender, slender_of_row
 
 # With a shorter forcing period an arc has too many sign intervals for a search in lockstep.
 MIN_LANE_PERIOD = 0.1
@@ -59,7 +64,7 @@ class LaneWork(NamedTuple):
     """Work item of a lane: a point of the batch (-1 if the lane is idle), its system and its classification."""
 
     point: int
-    p: HarmonicParameters
+    p: Slender[Cosine]
     case: ClassifierState
 
 
@@ -73,7 +78,7 @@ class BatchRequest(NamedTuple):
     results: ResultArrays
 
 
-@njit(**INTERNAL)
+@kernel
 def lane_eligible(p, case):
     """Return whether a motion may be marched in lanes.
 
@@ -91,7 +96,7 @@ def lane_eligible(p, case):
     return (braced or early) and not (tracker.base.seen or tracker.brace.seen)
 
 
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def try_skip_readback(s, i, work, max_cycles, workspace):
     """Start the next leg of a lane without reading its block, if the tangent growth already excludes a torus.
 
@@ -120,14 +125,14 @@ def try_skip_readback(s, i, work, max_cycles, workspace):
     return True, LaneWork(point, p, further)
 
 
-@njit(**INTERNAL)
+@kernel
 def open_point(point, batch):
     """Return the work item of a point at its start."""
-    p = parameters_from_row(batch.systems[point])
+    p = slender_of_row(batch.systems[point])
     return LaneWork(point, p, opened(p, batch.starts[point, 0], batch.starts[point, 1], batch.max_cycles))
 
 
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def start_leg(s, i, work, stays, max_cycles, own):
     """Start the next leg of a lane with its work item, whose block ``stays`` in the lane or is loaded."""
     case = work.case
@@ -142,7 +147,7 @@ def start_leg(s, i, work, stays, max_cycles, own):
     set_leg(s, i, target, not case.run.lossless or needed)
 
 
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def service_lane(s, i, request, work, queue, batch, workspace):
     """Service one lane at the end of a leg, or of part of one, and start its next leg.
 
@@ -183,7 +188,7 @@ def service_lane(s, i, request, work, queue, batch, workspace):
     return work, queue
 
 
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def service_until_ready(s, i, request, work, queue, batch, workspace):
     """Fulfil this and the following requests of a lane.
 
@@ -203,7 +208,7 @@ def service_until_ready(s, i, request, work, queue, batch, workspace):
     return work, queue
 
 
-@njit(**INTERNAL)
+@kernel
 def run_lanes(s, flights, log, braced, stop):
     """March all lanes until one of them makes a request."""
     while stop[0] == 0:
@@ -216,7 +221,7 @@ def run_lanes(s, flights, log, braced, stop):
             return
 
 
-@entry_point(**LONG)
+@entry_point(long=True)
 def classify_batch_lanes(
     systems: Floats2,
     starts: Floats2,
@@ -232,7 +237,7 @@ def classify_batch_lanes(
     False if ``stop[0]`` was set before the end.
     """
     batch = BatchRequest(systems, starts, max_cycles, max_period, results)
-    s, p, queue, busy = workspace.state[0], parameters_from_row(systems[0]), np.int64(0), LANES
+    s, p, queue, busy = workspace.state[0], slender_of_row(systems[0]), np.int64(0), LANES
     braced = p.block.brace_angle < math.inf
     idle = LaneWork(-1, p, opened(p, 0.0, 0.0, max_cycles))
     works, parameters = workspace.works.ctypes.data, workspace.parameters.ctypes.data

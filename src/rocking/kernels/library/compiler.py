@@ -12,10 +12,11 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.errors import TypingError
+from numba.core.registry import cpu_target
 from numba.core.typeconv import Conversion
 from numba.extending import intrinsic
 
-from rocking.kernels.signature import Array, Fields, Signature
+from rocking.kernels.library.signature import Array, Fields, Signature
 
 WORD = ir.IntType(64)
 NUMBERS = {float: types.float64, int: types.int64, bool: types.boolean}
@@ -160,28 +161,39 @@ def stop_before_llvm() -> None:
     _more.update(LOWERING)
 
 
-def dispatcher_of(function: Callable[..., Any], options: dict[str, Any]) -> Any:
-    """Return the dispatcher of a kernel. numba does not know the option ``seldom``."""
-    if options.get("seldom"):
+def dispatcher_of(function: Callable[..., Any], options: dict[str, Any], seldom: bool = False) -> Any:
+    """Return the dispatcher of a kernel."""
+    if seldom:
         SELDOM.add(function)
-    options = {name: value for name, value in options.items() if name != "seldom"}
     return numba.njit(**options | _more)(function)
 
 
+def type_of_global(made: Any) -> types.Type:
+    """Return the type of an object that the compiler finds under a name."""
+    context = cpu_target.typing_context
+    context.refresh()
+    return context.resolve_value_type(made)
+
+
 class ChosenByType:
-    """Dispatcher that stands for one of several kernels in compiled code, by the type of its first argument.
+    """Dispatcher that stands for one of several kernels in compiled code, by the block and the base of the system, its first argument.
 
     It has what numba asks of a dispatcher when it types and lowers a call, and no more.
     """
 
     is_compiling = False
 
-    def __init__(self, stub: Callable[..., Any], bodies: dict[type, Any]) -> None:
+    def __init__(self, stub: Callable[..., Any], bodies: dict[tuple[type | None, type | None], Any]) -> None:
         self.__name__, self.py_func, self.bodies = stub.__name__, stub, bodies
         self._numba_type_ = types.Dispatcher(self)
 
     def _body(self, args: Any) -> Any:
-        return self.bodies[args[0].instance_class].compiled
+        system = args[0]
+        block, base = system.instance_class, system.types[system.fields.index("forcing")].instance_class
+        for key in ((block, base), (block, None), (None, base)):
+            if key in self.bodies:
+                return self.bodies[key].compiled
+        raise TypingError(f"{self.__name__} has no body for {block.__name__}[{base.__name__}]")
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Return the template of a call of the body."""

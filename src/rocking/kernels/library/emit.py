@@ -13,13 +13,9 @@ from rocking.kernels.library.load import SOURCES, TEXTS, hash_sources, hash_text
 from rocking.kernels.library.processor import CLASSES
 
 TRIPLES = {"aarch64": "aarch64-unknown-linux-gnu"}
-# All that the kernels may take from the C library. Ceil, floor, fma and sqrt are instructions where the processor has them.
-# fmt: off
-C_LIBRARY = {
-    "acos", "atan", "atan2", "atanh", "ceil", "cos", "exp", "floor", "fma", "fmod", "hypot", "log", "log10", "log2", "memset", "sin",
-    "sincos", "sinh", "sqrt", "tan", "tanh",
-}
-# fmt: on
+# All that the kernels may take from the C library. Their results are exact, so that they are the same in every version of it. Ceil,
+# floor, fma and sqrt are instructions where the processor has them.
+C_LIBRARY = {"ceil", "floor", "fma", "fmod", "memset", "sqrt"}
 MARKS = "marks.bc"
 """File name of the module of the constants by which a library is recognised."""
 

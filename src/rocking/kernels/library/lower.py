@@ -11,22 +11,23 @@ from pathlib import Path
 
 import llvmlite.binding as llvm
 
-from rocking.kernels.deferred import bind_compiled, import_all
-from rocking.kernels.entry_point import ENTRY_POINTS
 from rocking.kernels.library import compiler
+from rocking.kernels.library.build import GROUPS
+from rocking.kernels.library.export import ENTRY_POINTS
+from rocking.kernels.library.kernel import import_all
 
 
 def group_of(name: str) -> str:
     """Return the group of an entry point: that of the block. The groups share few functions."""
     _, *function = name.split(".")
-    return "full" if any(part.lower().startswith("full") for part in function) else "slender"
+    found = (group for group in GROUPS for part in function if part.lower().startswith(group))
+    return next(found, "slender")
 
 
 def lower(names: list[str]) -> bytes:
     """Return the bitcode of entry points and of all that they call, before optimisation and for any processor."""
     gc.disable()  # the objects of numba live to the end of the process
     compiler.stop_before_llvm()
-    bind_compiled()
     entries, parts = {}, {}
     for name in names:
         entries[ENTRY_POINTS[name].symbol] = lowered = ENTRY_POINTS[name].lower()

@@ -2,17 +2,16 @@
 
 import math
 
-from rocking.kernels.compile_options import INTERNAL, KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.entry_point import entry_point
-from rocking.kernels.numerics.simd import both_exponentials
-from rocking.kernels.signature import Floats1
+from rocking.kernels.library.export import entry_point
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.library.signature import Floats1
+from rocking.kernels.numerics.elementary import both_exponentials, logarithm_10
 
 # A weight below e to the power of minus this does not change a sum.
 UNSEEN = 700.0
 
 
-@njit(**INTERNAL)
+@kernel
 def bumps(count, weights):
     """Write the weights of the first half of ``count`` values.
 
@@ -27,7 +26,7 @@ def bumps(count, weights):
         weights[half - 1] *= 0.5
 
 
-@njit(**INTERNAL)
+@kernel
 def weighted_mean(values, weights):
     """Return the Birkhoff average with the weight exp(-1/(x(1 - x))), where x runs from 0 to 1 along ``values``.
 
@@ -43,18 +42,17 @@ def weighted_mean(values, weights):
     return total / (2.0 * half.sum())
 
 
-@njit(**INTERNAL)
-def digits_of_agreement(values, weights):
-    """Return the number of decimal digits to which the weighted means of both halves of ``values`` agree."""
+@entry_point
+def mean_and_digits(values: Floats1, weights: Floats1) -> tuple[float, float]:
+    """Return the ``weighted_mean``, and the number of decimal digits to which those of both halves of ``values`` agree."""
     half = values.shape[0] // 2
-    return digits_alike(
-        weighted_mean(values[:half], weights), weighted_mean(values[half : 2 * half], weights)
-    )
+    first, second = weighted_mean(values[:half], weights), weighted_mean(values[half : 2 * half], weights)
+    return weighted_mean(values, weights), digits_alike(first, second)
 
 
-@njit(**INTERNAL)
+@kernel
 def digits_with(values, weights):
-    """Return ``digits_of_agreement`` from the weights that ``bumps`` computes for half the number of values."""
+    """Return the digits of ``mean_and_digits`` from the weights that ``bumps`` computes for half the number of values."""
     half, first, second = values.shape[0] // 2, 0.0, 0.0
     for k in range((half + 1) // 2):
         opposite = half - 1 - k
@@ -63,17 +61,17 @@ def digits_with(values, weights):
     return digits_alike(first, second)
 
 
-@njit(**INTERNAL)
+@kernel
 def digits_alike(first, second):
     """Return the number of decimal digits to which two numbers agree, relative to their size."""
     scale = max(abs(first), abs(second))
     if first == second or scale == 0.0:
         return 16.0
-    return -math.log10(abs(first - second) / scale)
+    return -logarithm_10(abs(first - second) / scale)
 
 
-@njit(**KERNEL)
-def error_of_sum(departures, width):
+@entry_point
+def error_of_sum(departures: Floats1, width: int) -> float:
     """Return the standard error of a sum from the deviations of its terms, in groups of ``width`` neighbours.
 
     ``departures`` holds the deviation of each term from the mean of the terms.
@@ -86,7 +84,7 @@ def error_of_sum(departures, width):
     return math.sqrt(spread * groups / (groups - 1))
 
 
-@njit(**KERNEL)
+@kernel
 def batch_error(batches):
     """Estimate the mean of a series and its standard error from batch means.
 
@@ -109,21 +107,3 @@ def batch_error(batches):
         largest = max(largest, error_of_sum(batches, width))
     correlation = (largest / finest) ** 2 if finest > 0.0 else 1.0
     return mean, largest / batches.shape[0], correlation
-
-
-@entry_point(**KERNEL)
-def weighted_mean_plain(values: Floats1, weights: Floats1) -> float:
-    """Return ``weighted_mean``; entry point for Python."""
-    return weighted_mean(values, weights)
-
-
-@entry_point(**KERNEL)
-def digits_of_agreement_plain(values: Floats1, weights: Floats1) -> float:
-    """Return ``digits_of_agreement``; entry point for Python."""
-    return digits_of_agreement(values, weights)
-
-
-@entry_point(**KERNEL)
-def error_of_sum_plain(departures: Floats1, width: int) -> float:
-    """Return ``error_of_sum``; entry point for Python."""
-    return error_of_sum(departures, width)

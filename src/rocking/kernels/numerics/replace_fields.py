@@ -1,7 +1,6 @@
 """Copies of named tuples with some fields replaced: compiled code lacks Python's ``_replace``."""
 
-from rocking.kernels.compile_options import INTERNAL_INLINE
-from rocking.kernels.deferred import njit
+from rocking.kernels.library.kernel import kernel
 
 
 def replacing(kind, *fields):
@@ -15,4 +14,4 @@ def replacing(kind, *fields):
     values = ", ".join(field if field in fields else f"old.{field}" for field in kind._fields)
     scope = {"kind": kind, "__name__": __name__}
     exec(f"def replace(old, {', '.join(fields)}):\n    return kind({values})", scope)
-    return njit(**INTERNAL_INLINE)(scope["replace"])
+    return kernel(scope["replace"], inline=True)

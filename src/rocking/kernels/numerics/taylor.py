@@ -2,15 +2,13 @@
 
 import math
 
-from rocking.kernels.compile_options import INTERNAL_INLINE
-from rocking.kernels.deferred import njit
-from rocking.kernels.numerics.elementary import fma
-from rocking.kernels.numerics.simd import choose
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.numerics.elementary import choose, fma
 
 I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
 
 
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def reversion(y, second, third, fourth, per):
     """Return the factor that extends a Newton step y to the nearest zero of w's Taylor series, to fifth order.
 
@@ -20,7 +18,7 @@ def reversion(y, second, third, fourth, per):
     return fma(y, fma(y, fma(y, fma(5.0 * a, fma(-a, a, b), -c), fma(2.0 * a, a, -b)), -a), 1.0)
 
 
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def within_a_factor_of_two(factor):
     """Return the factor if it lies between 1/2 and 2, else 1.
 
@@ -29,11 +27,11 @@ def within_a_factor_of_two(factor):
     return choose((factor > 0.5) & (factor < 2.0), factor, 1.0)
 
 
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def series(c, x):
     """Return w and its first four derivatives a time x later, from its first eight derivatives at present.
 
-    ``c`` is (w, w', ..., the eighth derivative). Up to a time of ``fast_path.REACH`` the truncated series is
+    ``c`` is (w, w', ..., the eighth derivative). Up to a time of ``fast_search_cosine.REACH`` the truncated series is
     accurate to about three digits.
     """
     c0, c1, c2, c3, c4, c5, c6, c7, c8 = c
@@ -49,7 +47,7 @@ def series(c, x):
     return w0, w1, w2, w3, w4
 
 
-@njit(**INTERNAL_INLINE)
+@kernel(inline=True)
 def velocity_after(derivatives, x):
     """Return w' a small time x later from (w', ..., the fifth derivative) at present."""
     v, second, third, fourth, fifth = derivatives

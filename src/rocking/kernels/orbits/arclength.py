@@ -9,12 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.compile_options import INTERNAL
-from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
-from rocking.kernels.numerics.linear_solve import solve
-from rocking.kernels.orbits.event_chain import Chain, Equations, make_equations, with_value
-from rocking.kernels.signature import Floats1, Floats2, Integers1
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.library.signature import Floats1, Floats2, Integers1
+from rocking.kernels.numerics.dense import solve
+from rocking.kernels.orbits.chain import Chain, Equations, make_equations, with_value
+from rocking.kernels.system import Cosine, Slender
 
 MAX_CORRECTIONS = 10
 CONVERGED = 1e-11
@@ -61,7 +60,7 @@ class Workspace(NamedTuple):
 class Problem(NamedTuple):
     """Constant data along a curve of chains of k events; a point y has k phases, then one or two parameters."""
 
-    p: HarmonicParameters
+    p: Slender[Cosine]
     chain: Chain
     which: Integers1  # (1,) or (2,), the parameters that vary
     limits: Floats2  # (lowest, highest) of each parameter
@@ -87,7 +86,7 @@ def make_workspace(phases, scales):
     return Workspace(weights, make_equations(n), make_equations(n), np.zeros((n, n)), *np.zeros((6, n)))
 
 
-@njit(**INTERNAL)
+@kernel
 def system_at(problem, y):
     """Return the system at a point."""
     system, k = problem.p, problem.chain.kinds.shape[0]
@@ -96,7 +95,7 @@ def system_at(problem, y):
     return system
 
 
-@njit(**INTERNAL)
+@kernel
 def crossed_limit(problem, y):
     """Find a parameter outside its range.
 
@@ -114,7 +113,7 @@ def crossed_limit(problem, y):
     return -1, 0.0
 
 
-@njit(**INTERNAL)
+@kernel
 def within_bounds(problem, y):
     """Return whether every parameter exceeds its range by two steps at most.
 
@@ -129,7 +128,7 @@ def within_bounds(problem, y):
     return True
 
 
-@njit(**INTERNAL)
+@kernel
 def inner(a, b, weights):
     """Return the scalar product of two directions."""
     total = 0.0
@@ -138,7 +137,7 @@ def inner(a, b, weights):
     return total
 
 
-@njit(**INTERNAL)
+@kernel
 def border(workspace, direction):
     """Write the equations, with the direction as their last row, into the matrix to be solved."""
     n = direction.shape[0]
@@ -149,7 +148,7 @@ def border(workspace, direction):
         workspace.matrix[n - 1, j] = workspace.weights[j] * direction[j]
 
 
-@njit(**INTERNAL)
+@kernel
 def newton_step(workspace, y, direction):
     """Make one Newton step, in place, on the equations and on the plane across ``direction``; return its size.
 
@@ -172,7 +171,7 @@ def newton_step(workspace, y, direction):
     return size
 
 
-@njit(**INTERNAL)
+@kernel
 def correct(assemble, problem, y, direction, condition):
     """Correct ``y`` by Newton's method, in place, in the plane across ``direction``.
 
@@ -202,7 +201,7 @@ def correct(assemble, problem, y, direction, condition):
     return -1, condition
 
 
-@njit(**INTERNAL)
+@kernel
 def predict(tangent, length, workspace):
     """Write the point a length further along a tangent into ``workspace.predicted`` and ``workspace.corrected``."""
     for j in range(tangent.point.shape[0]):
@@ -210,7 +209,7 @@ def predict(tangent, length, workspace):
         workspace.corrected[j] = workspace.predicted[j]
 
 
-@njit(**INTERNAL)
+@kernel
 def find_direction(direction, workspace):
     """Write the direction of the curve at the last assembled point into ``workspace.direction``.
 
@@ -228,7 +227,7 @@ def find_direction(direction, workspace):
     return 0.0 < size < math.inf
 
 
-@njit(**INTERNAL)
+@kernel
 def bends_little(direction, workspace):
     """Return whether the direction at the last assembled point is close to ``direction``.
 
@@ -240,7 +239,7 @@ def bends_little(direction, workspace):
     )
 
 
-@njit(**INTERNAL)
+@kernel
 def has_closed(start, points, count, problem):
     """Return whether a curve has returned to its start between the last two of its first ``count`` points."""
     if count <= MIN_LOOP:
@@ -254,7 +253,7 @@ def has_closed(start, points, count, problem):
     return passes and math.sqrt(inner(now, now, weights)) < 2.0 * problem.longest
 
 
-@njit(**INTERNAL)
+@kernel
 def next_length(problem, length, corrections):
     """Return the length of the next step after one that took the given number of corrections."""
     return min(length * (GROW if corrections <= FEW_CORRECTIONS else 1.0), problem.longest)

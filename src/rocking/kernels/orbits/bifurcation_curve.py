@@ -6,10 +6,10 @@ The condition is exact. Only its derivatives, which Newton's method uses, are fi
 import math
 from typing import NamedTuple
 
-from rocking.kernels.compile_options import INTERNAL, KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.entry_point import entry_point
-from rocking.kernels.numerics.copy import copy_into
+from rocking.kernels.library.export import entry_point
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.library.signature import Floats2
+from rocking.kernels.numerics.dense import copy_into
 from rocking.kernels.orbits.arclength import (
     GRAZING_STEP,
     MIN_STEP,
@@ -26,10 +26,9 @@ from rocking.kernels.orbits.arclength import (
     predict,
     system_at,
 )
-from rocking.kernels.orbits.branch_point import Special, special_value
-from rocking.kernels.orbits.chain_validation import Condition, clearance, slowest_arrival, verify_chain
-from rocking.kernels.orbits.event_chain import assemble, monodromy
-from rocking.kernels.signature import Floats2
+from rocking.kernels.orbits.chain import assemble, monodromy
+from rocking.kernels.orbits.chain_check import Condition, clearance, slowest_arrival, verify_chain
+from rocking.kernels.orbits.continuation import Special, special_value
 
 DIFFERENCE = 1e-6
 # Speed of an event that is about to vanish, within ``GRAZING_STEP``.
@@ -45,7 +44,7 @@ class CurveStep(NamedTuple):
     condition: Condition  # at its end
 
 
-@njit(**INTERNAL)
+@kernel
 def condition_at(problem, y, condition, equations):
     """Write the ``equations`` at a point and evaluate the condition.
 
@@ -64,7 +63,7 @@ def condition_at(problem, y, condition, equations):
     return special_value(condition.kind, trace, determinant), condition.time
 
 
-@njit(**INTERNAL)
+@kernel
 def assemble_curve(problem, y, condition):
     """Write the chain's equations and the condition, with their derivatives.
 
@@ -92,7 +91,7 @@ def assemble_curve(problem, y, condition):
     return abs(value) < math.inf, Condition(condition.kind, condition.arc, condition.level, time)
 
 
-@njit(**INTERNAL)
+@kernel
 def loses_contact(problem, y, condition):
     """Return whether an event of the chain at ``y`` almost vanishes, beyond which the equations do not exist."""
     links = problem.workspace.equations.links
@@ -100,7 +99,7 @@ def loses_contact(problem, y, condition):
     return slowest_arrival(links, problem.chain.kinds.shape[0]) <= VANISHING_SPEED
 
 
-@njit(**INTERNAL)
+@kernel
 def next_point(problem, tangent, length, condition):
     """Step to the next point, with shorter steps if the curve bends.
 
@@ -122,7 +121,7 @@ def next_point(problem, tangent, length, condition):
             return CurveStep(End.LOST, length, corrections, moved)
 
 
-@njit(**INTERNAL)
+@kernel
 def converge_to_limit(problem, y, index, limit, condition):
     """Return whether the point of the curve at a limit was found, between ``y`` and ``workspace.corrected``.
 
@@ -139,7 +138,7 @@ def converge_to_limit(problem, y, index, limit, condition):
     return correct(assemble_curve, problem, point, across, condition)[0] >= 0
 
 
-@entry_point(**KERNEL)
+@entry_point
 def follow_curve(problem: Problem, start: Tangent, condition: Condition, points: Floats2) -> tuple[int, int]:
     """Follow a curve of special points from near ``start``, a tangent, in its direction.
 

@@ -1,14 +1,16 @@
 """Continuation of a branch of periodic orbits in one parameter, with its special points."""
 
 import math
+from enum import IntEnum
 from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from rocking.kernels.compile_options import INTERNAL, KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.entry_point import entry_point
-from rocking.kernels.numerics.copy import copy_into
+from rocking.kernels.library.export import entry_point
+from rocking.kernels.library.kernel import kernel
+from rocking.kernels.library.signature import Floats2
+from rocking.kernels.numerics.dense import copy_into
+from rocking.kernels.numerics.elementary import arctangent
 from rocking.kernels.orbits.arclength import (
     GRAZING_STEP,
     MIN_STEP,
@@ -17,24 +19,21 @@ from rocking.kernels.orbits.arclength import (
     Problem,
     Tangent,
     bends_little,
+    correct,
     crossed_limit,
     find_direction,
     has_closed,
     next_length,
+    predict,
+    system_at,
 )
-from rocking.kernels.orbits.branch_point import (
-    Point,
-    Special,
-    last_valid_length,
-    locate,
-    multiplier_angle,
-    passes_and_returns,
-    point_at,
-    special_value,
-    validated_point_at,
-)
-from rocking.kernels.orbits.chain_validation import slowest_arrival
-from rocking.kernels.signature import Floats2
+from rocking.kernels.orbits.chain import assemble, monodromy
+from rocking.kernels.orbits.chain_check import UNCONDITIONAL, slowest_arrival, verify_chain
+
+# Relative accuracy of a root along a step.
+ROOT_TOLERANCE = 1e-14
+MAX_HALVINGS = 200
+
 
 # Maximum change of ``multiplier_angle`` in a step; a fold and a flip are pi/2 apart.
 MAX_TURN = 0.3
@@ -49,9 +48,150 @@ MIN_RESOLVED_STEP = 1e-6
 # Tolerance of phases half a chain apart: if they differ by half the turn of the chain, the orbit has a
 # shorter period.
 SAME_PHASE = 1e-5
-
 FACTS = np.dtype([(name, float) for name in ("trace", "determinant", "peak", "velocity")])
 CHANGE = np.dtype([("kind", np.int64), ("index", np.int64)])
+
+
+class Special(IntEnum):
+    """Type of a special point of a branch."""
+
+    BOUND = -1  # no bifurcation: the parameter takes a given value
+    FOLD = 0
+    SYMMETRY_BREAKING = 1
+    PERIOD_DOUBLING = 2
+    GRAZING = 3
+
+
+class Point(NamedTuple):
+    """Properties of a point of a branch, in addition to its phases."""
+
+    corrections: int  # -1 if Newton's method fails
+    trace: float
+    determinant: float
+    valid: bool  # whether the motion of the block is that of the chain
+    peak: float
+
+
+@kernel
+def multiplier_angle(trace, determinant):
+    """Return an angle that measures the multipliers: pi/4 at a fold, -pi/4 at a flip, always within pi/2."""
+    return arctangent(trace / (1.0 + determinant))
+
+
+@kernel
+def passes_and_returns(earlier, length_before, start, stop, length):
+    """Return whether the multipliers seem to pass a fold or a flip and come back between ``start`` and ``stop``.
+
+    They are assumed to lie on the parabola through these two and the value ``earlier`` (NaN: none),
+    ``length_before`` in front of the first.
+    """
+    slope, before = (stop - start) / length, (start - earlier) / length_before
+    bend = (slope - before) / (length + length_before)
+    # start + rise s + bend s^2 is extreme at s = -rise/(2 bend)
+    rise = slope - bend * length
+    if not 0.0 < -rise * bend < 2.0 * bend * bend * length:
+        return False
+    extreme = start - 0.25 * rise * rise / bend
+    level = 0.25 * math.pi
+    fold = (start > level) == (stop > level) != (extreme > level)
+    flip = (start > -level) == (stop > -level) != (extreme > -level)
+    return fold or flip
+
+
+@kernel
+def assemble_branch(problem, y, condition):
+    """Write the equations at a point of a branch, which has no condition.
+
+    Returns
+    -------
+    tuple of (bool, Condition)
+        Whether the events keep their order.
+        The condition, unchanged.
+    """
+    q, equations = system_at(problem, y), problem.workspace.equations
+    return assemble(q, problem.which[0], problem.chain, y, equations), condition
+
+
+@kernel
+def point_at(problem, tangent, length):
+    """Return the point of the branch a length further along a tangent, not validated.
+
+    The point is left in ``workspace.corrected``.
+    """
+    workspace = problem.workspace
+    predict(tangent, length, workspace)
+    corrections, _ = correct(assemble_branch, problem, workspace.corrected, tangent.direction, UNCONDITIONAL)
+    if corrections < 0:
+        return Point(-1, 0.0, 0.0, False, 0.0)
+    q = system_at(problem, workspace.corrected)
+    trace, determinant = monodromy(q, problem.chain, workspace.equations.links)
+    return Point(corrections, trace, determinant, False, 0.0)
+
+
+@kernel
+def validated_point_at(problem, tangent, length):
+    """Return the point of the branch a length further along a tangent, validated: every arc of it is marched."""
+    point, workspace = point_at(problem, tangent, length), problem.workspace
+    if point.corrections < 0:
+        return point
+    y, links = workspace.corrected, workspace.equations.links
+    own, peak = verify_chain(system_at(problem, y), problem.chain, y, links, UNCONDITIONAL)
+    return Point(point.corrections, point.trace, point.determinant, own, peak)
+
+
+@kernel
+def special_value(what, trace, determinant):
+    """Return the test function of a fold or of a flip, which vanishes there."""
+    return 1.0 - trace + determinant if what == Special.FOLD else 1.0 + trace + determinant
+
+
+@kernel
+def locate(problem, tangent, length, what, level, at_start, at_end):
+    """Return the length at which a test function, or a parameter less ``level``, vanishes between 0 and ``length``.
+
+    The method is false position with halvings (Illinois), from the values at both ends. NaN if the branch is
+    lost.
+    """
+    a, b, f, g = 0.0, length, at_start, at_end
+    middle, last = length, 0
+    for _ in range(MAX_HALVINGS):
+        middle = b - g * (b - a) / (g - f)
+        if not a < middle < b:
+            middle = 0.5 * (a + b)
+        point = point_at(problem, tangent, middle)
+        if point.corrections < 0:
+            return math.nan
+        value = problem.workspace.corrected[-1] - level
+        if what != Special.BOUND:
+            value = special_value(what, point.trace, point.determinant)
+        if value == 0.0 or b - a <= ROOT_TOLERANCE * length:
+            return middle
+        # Illinois: the value at an end that stays is halved
+        if (value > 0.0) == (g > 0.0):
+            b, g = middle, value
+            f *= 0.5 if last == 1 else 1.0
+            last = 1
+        else:
+            a, f = middle, value
+            g *= 0.5 if last == -1 else 1.0
+            last = -1
+    return middle
+
+
+@kernel
+def last_valid_length(problem, tangent, length):
+    """Return the greatest length up to which the points are motions of the block, by bisection."""
+    a, b = 0.0, length
+    for _ in range(MAX_HALVINGS):
+        if b - a <= ROOT_TOLERANCE * length:
+            break
+        middle = 0.5 * (a + b)
+        if validated_point_at(problem, tangent, middle).valid:
+            a = middle
+        else:
+            b = middle
+    return a
+
 
 Facts = Annotated[np.ndarray, FACTS, 1]
 Changes = Annotated[np.ndarray, CHANGE, 1]
@@ -84,7 +224,7 @@ class Step(NamedTuple):
     point: Point
 
 
-@njit(**INTERNAL)
+@kernel
 def repeats_sooner(chain, y):
     """Return whether an orbit, or its mirror image, repeats after half its chain."""
     k = chain.kinds.shape[0]
@@ -98,7 +238,7 @@ def repeats_sooner(chain, y):
     return True
 
 
-@njit(**INTERNAL)
+@kernel
 def kind_of(what, chain, y):
     """Classify a special point.
 
@@ -119,7 +259,7 @@ def kind_of(what, chain, y):
     return (Special.PERIOD_DOUBLING if half_turns % 2 == 0 else Special.SYMMETRY_BREAKING), True
 
 
-@njit(**INTERNAL)
+@kernel
 def store_point(table, row, point, workspace):
     """Write the point in ``workspace.corrected``."""
     copy_into(table.rows[row], workspace.corrected)
@@ -128,7 +268,7 @@ def store_point(table, row, point, workspace):
     facts.velocity = workspace.equations.links[0].leaves
 
 
-@njit(**INTERNAL)
+@kernel
 def store_special(table, found, y, kind, index):
     """Write a special point if the table has room; return the number of special points."""
     if found == table.changes.shape[0]:
@@ -138,7 +278,7 @@ def store_special(table, found, y, kind, index):
     return found + 1
 
 
-@njit(**INTERNAL)
+@kernel
 def resolves_multipliers(problem, state, point, length):
     """Return whether the multipliers change little in a step, so that no special point is passed unseen."""
     start = multiplier_angle(state.point.trace, state.point.determinant)
@@ -153,7 +293,7 @@ def resolves_multipliers(problem, state, point, length):
     )
 
 
-@njit(**INTERNAL)
+@kernel
 def next_step(problem, state):
     """Step to the next point, with shorter steps if the branch bends or the multipliers change fast.
 
@@ -189,7 +329,7 @@ def next_step(problem, state):
     return Step(end, length, point)
 
 
-@njit(**INTERNAL)
+@kernel
 def length_to_limit(problem, tangent, length, limit):
     """Return the length at which the parameter reaches ``limit``; NaN if the branch is lost.
 
@@ -202,7 +342,7 @@ def length_to_limit(problem, tangent, length, limit):
     return locate(problem, tangent, length, Special.BOUND, limit, start, stop)
 
 
-@njit(**INTERNAL)
+@kernel
 def store_specials(problem, state, step, table, found, count):
     """Write the special points along a step.
 
@@ -229,7 +369,7 @@ def store_specials(problem, state, step, table, found, count):
     return found, math.nan
 
 
-@entry_point(**KERNEL)
+@entry_point
 def follow(problem: Problem, start: Tangent, table: BranchTable) -> tuple[int, int, int]:
     """Follow a branch from the orbit near ``start``, a tangent, in its direction.
 

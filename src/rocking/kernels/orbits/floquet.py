@@ -6,14 +6,13 @@ the unit circle.
 
 import math
 
-from rocking.kernels.compile_options import INTERNAL, KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.entry_point import entry_point
+from rocking.kernels.library.export import entry_point
+from rocking.kernels.library.kernel import kernel
 from rocking.kernels.numerics.elementary import fma, size
 
 
-@njit(**INTERNAL)
-def eigenvalues(middle, square, determinant):
+@entry_point
+def eigenvalues(middle: float, square: float, determinant: float) -> tuple[float, float, float, float]:
     """Return both eigenvalues of a real matrix: the larger first, or the one above the real axis.
 
     ``middle`` is half its trace, ``square`` the square of half their difference. A caller that knows the
@@ -33,40 +32,31 @@ def eigenvalues(middle, square, determinant):
     return large, 0.0, small, 0.0
 
 
-@njit(**INTERNAL)
+@kernel
 def multipliers(tangent):
-    """Return the ``eigenvalues`` of a tangent.
+    """Return the Floquet multipliers of an orbit, the ``eigenvalues`` of its tangent.
 
-    The fused product is explicit, because the compiler's choice would depend on the caller.
+    The larger is first, or the one above the real axis.
     """
     apart, crossed = 0.5 * (tangent.a - tangent.d), tangent.b * tangent.c
     determinant = fma(tangent.a, tangent.d, -crossed)
     return eigenvalues(0.5 * (tangent.a + tangent.d), fma(apart, apart, crossed), determinant)
 
 
-@entry_point(**KERNEL)
-def multiplier_parts(
-    middle: float, square: float, determinant: float, mirrored: bool
-) -> tuple[float, float, float, float]:
-    """Return ``eigenvalues``; entry point for Python.
+def complex_multipliers(middle, square, determinant, mirrored):
+    """Return the Floquet multipliers of an orbit, two complex numbers; arguments as for ``eigenvalues``.
 
-    If ``mirrored``, the map is over half a period, and the results are the squares of its eigenvalues.
+    If ``mirrored``, the map is over half a period, and they are the squares of its eigenvalues.
     """
     real, above, other, below = eigenvalues(middle, square, determinant)
     if mirrored:
         turned = 2.0 * abs(real * above)
         real, other = real * real - above * above, other * other - below * below
         above, below = (turned, -turned) if turned > 0.0 else (0.0, 0.0)
-    return real, above, other, below
-
-
-def multipliers_plain(middle, square, determinant, mirrored):
-    """Return ``multiplier_parts`` as two complex numbers."""
-    real, above, other, below = multiplier_parts(middle, square, determinant, mirrored)
     return complex(real, above), complex(other, below)
 
 
-@njit(**INTERNAL)
+@kernel
 def adapted_norm(tangent, radius):
     """Return a norm in which a matrix with spectral radius < ``radius`` shrinks at least by the factor ``radius``.
 
@@ -93,14 +83,14 @@ def adapted_norm(tangent, radius):
     return q11, q12, q22
 
 
-@njit(**INTERNAL)
+@kernel
 def length(norm, x, y):
     """Return the length of (x, y) in an adapted norm."""
     q11, q12, q22 = norm
     return math.sqrt(q11 * x * x + 2.0 * q12 * x * y + q22 * y * y)
 
 
-@njit(**INTERNAL)
+@kernel
 def spectral_radius(tangent):
     """Return the modulus of the largest multiplier."""
     real, imaginary, _, _ = multipliers(tangent)

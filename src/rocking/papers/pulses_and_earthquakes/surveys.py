@@ -54,7 +54,9 @@ def scales() -> xr.Dataset:
     """Return the ends of the block under the recorded motion at all scales."""
     record = rk.example_ground_motion()
     factor = RATIOS * (GRAVITY * SLENDERNESS / record.pga)
-    return rk.rocking_spectrum(record, size=SIZE, slenderness=SLENDERNESS, levels=factor).dataset
+    return rk.rocking_spectrum(
+        record, size=SIZE, slenderness=SLENDERNESS, levels=factor, model="slender", normalised_by="angle"
+    ).dataset
 
 
 @shared
@@ -62,7 +64,9 @@ def synthetic_scales() -> xr.Dataset:
     """Return the ends of the block under the synthetic motions at every fifth scale."""
     motions = synthetic()
     factor = RATIOS[::5] * (GRAVITY * SLENDERNESS / motions[0].pga)
-    return rk.rocking_spectrum(motions, size=SIZE, slenderness=SLENDERNESS, levels=factor).dataset
+    return rk.rocking_spectrum(
+        motions, size=SIZE, slenderness=SLENDERNESS, levels=factor, model="slender", normalised_by="angle"
+    ).dataset
 
 
 @shared
@@ -75,6 +79,8 @@ def spectrum() -> xr.Dataset:
         slenderness=SLENDERNESSES,
         levels=SPECTRUM_PGA,
         intensity="pga-g",
+        model="slender",
+        normalised_by="angle",
     ).dataset
 
 
@@ -92,7 +98,12 @@ def wrong_verdicts() -> Wrong:
     motions = synthetic()
     factor = COARSE_RATIOS * (GRAVITY * COARSE_SLENDERNESS / motions[0].pga)
     exact = rk.rocking_spectrum(
-        motions, size=COARSE_SIZE, slenderness=COARSE_SLENDERNESS, levels=factor
+        motions,
+        size=COARSE_SIZE,
+        slenderness=COARSE_SLENDERNESS,
+        levels=factor,
+        model="slender",
+        normalised_by="angle",
     ).dataset.transpose("record", "level")
     sure = exact.certified.values.astype(bool).ravel()
     alpha = float(np.sqrt(3 * GRAVITY / (4 * COARSE_SIZE)))

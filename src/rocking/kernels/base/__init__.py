@@ -1,0 +1,1 @@
+"""Motions of the base: a cosine, a pulse, and samples."""

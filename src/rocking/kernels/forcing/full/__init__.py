@@ -1,1 +1,0 @@
-"""Block without the small-angle approximation: steps by Taylor series, with the same forcings as the slender block."""

@@ -1,1 +1,0 @@
-"""Arc, the motion between two events: its closed form, its first zero and its extrema."""

@@ -1,1 +1,0 @@
-"""Base acceleration that is a piece of a cosine: a pulse."""

@@ -1,1 +1,0 @@
-"""Base acceleration that is linear between equidistant samples, and 0 before the first and after the last."""

@@ -1,1 +1,0 @@
-"""March of one block from event to event."""

@@ -1,0 +1,80 @@
+"""Text of other programs: lines of words, the number of samples and the time step, then the samples in lines of any length."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from rocking.records.text_file import NUMBER, Channel, TextFile
+from rocking.records.units import header_units
+from rocking.records.written_numbers import ROW, in_plain_numbers
+
+NAMED = re.compile(r"\bNPTS\s*=\s*([^,;\s]+)[\s,;]*DT\s*=\s*([^,;\s]+)", re.IGNORECASE)
+HEADER_LINES = 100
+FEWEST = 10
+"""Whole numbers below it are samples, not numbers of samples."""
+
+
+class _Counts(NamedTuple):
+    """Place of the line after the counts, of their line, and their texts; no text of a step that the file does not state."""
+
+    after: int
+    line: int
+    number: str
+    step: str | None
+
+
+def recognises(file: TextFile) -> bool:
+    """Return whether the first numbers count those that follow them."""
+    return _counts(in_plain_numbers(file)) is not None
+
+
+def read(file: TextFile) -> list[Channel]:
+    """Read the only channel."""
+    file = in_plain_numbers(file)
+    counts = _counts(file)
+    assert counts is not None
+    samples, _ = file.separated(counts.after, file.count(counts.line, counts.number))
+    header = file.lines[: counts.after]
+    units = header_units(header)
+    name = next((line.strip() for line in header[: counts.line] if line.strip()), "")
+    step = None if counts.step is None else file.step(counts.line, counts.step)
+    return [Channel(samples, units.only(), step, "text", name, header=units)]
+
+
+def _counts(file: TextFile) -> _Counts | None:
+    named: tuple[int, re.Match[str]] | None = None
+    for index, line in enumerate(file.lines[: HEADER_LINES + 1]):
+        if named is None and (match := NAMED.search(line)):
+            named = index, match
+        elif ROW.fullmatch(line):
+            if named is None:
+                return _unnamed(file, index)
+            place, match = named
+            # As many rows of several numbers as samples are columns.
+            rows = [row for line in file.lines[index:] if (row := NUMBER.findall(line))]
+            columns = str(len(rows)) == match.group(1) and len(rows[0]) > 1
+            return None if columns else _Counts(index, place, *match.groups())
+    return None
+
+
+def _unnamed(file: TextFile, first: int) -> _Counts | None:
+    """Return the counts in the first row of numbers, n dt or dt n, or in the first two, n and dt, or n alone."""
+    head = NUMBER.findall(file.lines[first])
+    if len(head) > 2 or not any(map(_is_count, head)):
+        return None
+    rows = [NUMBER.findall(line) for line in file.lines[first + 1 :]]
+    if len(head) == 2:
+        pairs = ((count, step) for count, step in (head, head[::-1]) if _is_count(count))
+        count, step = next(pairs)
+        columns = all(len(row) == 2 for row in rows if row)
+        return None if columns or _is_count(step) else _Counts(first + 1, first, count, step)
+    total = sum(map(len, rows))
+    second = next((k for k, row in enumerate(rows, 1) if row), 0)
+    if total == int(head[0]) + 1 and len(rows[second - 1]) == 1:
+        return _Counts(first + second + 1, first, head[0], rows[second - 1][0])
+    return _Counts(first + 1, first, head[0], None) if total == int(head[0]) else None
+
+
+def _is_count(text: str) -> bool:
+    return text.isdigit() and int(text) >= FEWEST
