@@ -272,9 +272,10 @@ class Motion(Trajectory, Result):
         Time τ of that lift-off or impact.
     certified : bool
         False if the outcome is undecided in double precision: the accumulated rounding error exceeds |K₊| somewhere, or the
-        clearance of a minimum of |Θ| between two impacts, or a lower bound of it. Of a block with a critical angle the error must
+        clearance of a minimum of |Θ| between two impacts, or a lower bound of it, or the base acceleration equals that of lift-off
+        up to rounding. Of a block with a critical angle the error must
         be small at the end of each arc, instead of |K₊| at its start. The error is an estimate from the rounding of each arc and
-        its growth. True for a harmonic base motion, and between braces, which prevent overturning.
+        its growth. True for a harmonic base motion. Between braces, which prevent overturning, only lift-off counts.
     final : State
         Θ and Θ' at the end, just after an event if there is one.
     duration : float
