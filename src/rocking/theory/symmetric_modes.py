@@ -1,6 +1,6 @@
 """Symmetric (1, n) modes in closed form: Spanos & Koh (1984); Yim & Lin (1991), Eqs. (8)–(10).
 
-The modes themselves are computed in ``rocking.kernels.orbits.symmetric_mode``. This module computes the amplitudes between
+The modes themselves are computed in ``rocking.kernels.orbits.modes``. This module computes the amplitudes between
 which they exist and are stable.
 """
 
