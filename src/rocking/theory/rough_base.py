@@ -106,10 +106,8 @@ def first_motion(
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range, or if the shapes do not broadcast.
+    TypeError, ValueError
+        As in `slide_rock_acceleration`.
 
     See Also
     --------
