@@ -94,6 +94,11 @@ class Assessment(Result):
     notes : tuple of str
         Sentences on what a reader must know.
 
+    Notes
+    -----
+    `to_dict` holds the name, the attributes and the rows of the records. It also holds `fragility`, `overturning_set`, `sensitivity`,
+    `rate` and `notes`.
+
     Examples
     --------
     >>> import rocking as rk
@@ -113,25 +118,8 @@ class Assessment(Result):
     name: str = ""
     notes: tuple[str, ...] = ()
 
-    def to_dict(self, *, units: str | None = None, block: Any = None) -> dict[str, Any]:
-        """Return the rows of the records, and the other results, as values that JSON has.
-
-        Parameters
-        ----------
-        units, block
-            As in `to_xarray`.
-
-        Returns
-        -------
-        dict
-            The name, the attributes and the rows of the records, `fragility`, `overturning_set`, `sensitivity` and `rate` (None
-            without a hazard), and `notes`.
-
-        Raises
-        ------
-        TypeError, ValueError
-            As in `to_xarray`.
-        """
+    def to_dict(self, *, units: str | None = None, block: Any = None) -> dict[str, Any]:  # noqa: D102
+        # The docstring is that of `Result.to_dict`.
         parts: dict[str, Result | None] = {
             "fragility": self.fragility,
             "overturning_set": self.overturning_set,

@@ -17,13 +17,11 @@ from rocking.model.system import quantities
 from rocking.model.text import counted
 from rocking.model.validation import instance, refuse_if, within
 from rocking.model.verdict import Overturning
-from rocking.motion.trajectory import Trajectory
+from rocking.motion.trajectory import Trajectory, side_at
 from rocking.motion.validity import Validity, compared, validity
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from rocking.motion.trajectory import Trajectory
 
 
 STEPS = 100
@@ -107,7 +105,7 @@ def margin_speed(motion: Trajectory, block: Block) -> float:
         return float(block.radians_per_second(motion.margin))
     if math.isnan(motion.margin) or motion.record != "all":
         return math.nan
-    side = 0 if motion._side_at(motion.margin_time) > 0 else 1
+    side = 0 if side_at(motion, motion.margin_time) > 0 else 1
     return motion.margin * block.critical_angles[side] * block.frequency_parameters[side]
 
 
