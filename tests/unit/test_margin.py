@@ -92,6 +92,16 @@ def test_a_base_that_holds_the_acceleration_of_lift_off_is_undecided(model, offs
     assert close >= 60
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_record_that_holds_the_acceleration_of_lift_off_is_undecided(sign):
+    for relative in (0.0, 2.0**-53, -(2.0**-53), 2.0**-52, -(2.0**-52), 2.0**-50, 1e-6, -1e-6):
+        level = 1.0 + relative
+        base = rk.PiecewiseLinear([0.0, 0.3, *[sign * level] * 100], step=0.6)
+        motion = rk.simulate(rk.System(base, restitution=0.8))
+        assert motion.outcome == ("overturned" if level > 1.0 else "at-rest") or not motion.certified
+        assert motion.certified == (abs(relative) == 1e-6)
+
+
 def test_a_block_that_never_moves_has_no_margin():
     motion = rk.simulate(rk.System(rk.PiecewiseLinear([0.0, 0.9, -0.9, 0.0], step=0.3), 0.9))
     assert math.isnan(motion.margin)
