@@ -83,7 +83,9 @@ def test_a_base_that_holds_the_acceleration_of_lift_off_is_undecided(model, offs
         for relative in (0.0, 1e-16, 3e-16, 1e-14, 1e-12, 1e-6, 1e-3):
             for above in (1.0 + relative, 1.0 - relative):
                 peak = float(level) * above
-                pulse = rk.Pulse("rectangular", amplitude=sign * peak, duration=60.0 / block.frequency_parameter)
+                pulse = rk.Pulse(
+                    "rectangular", amplitude=sign * peak, duration=60.0 / block.frequency_parameter
+                )
                 motion = rk.simulate(block.system(pulse, model=model))
                 expected = "overturned" if Fraction(peak) > level else "at-rest"
                 assert motion.outcome == expected or not motion.certified

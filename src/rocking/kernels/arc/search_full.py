@@ -160,7 +160,8 @@ def first_event(p, arc, peak, with_lows):
     """Return the first event of an arc: an impact, the proof that none follows, or a restart after a long time.
 
     The other results are the ``Extremes`` and the ``Stretch`` until then. The largest angle is ``peak`` at least. An infinite
-    ``peak`` spares the search for it. Minima are searched for ``with_lows`` only. Where no event follows, the state is that at which this is proved.
+    ``peak`` spares the search for it. Minima are searched for ``with_lows`` only. Where no event follows, the state is that at which
+    this is proved.
     """
     angle, velocity, drive, elapsed = arc.angle, arc.velocity, arc.drive, 0.0
     brace, seen, growth, steps = p.block.brace_angle, NO_EXTREMES, 0.0, 0.0
