@@ -283,7 +283,7 @@ def _of_files(paths: Sequence[Path], values: dict[str, Any], remedy: str = "") -
     return result
 
 
-def _of_file(path: Path, values: dict[str, Any]) -> list[GroundMotion]:
+def _of_file(path: Path, values: dict[str, Any]) -> tuple[GroundMotion, ...]:
     """Return the motions of one of several files; it keeps the unit and the step that it states itself."""
     try:
         return read_ground_motions(path, **values)
