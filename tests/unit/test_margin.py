@@ -104,6 +104,19 @@ def test_a_record_that_holds_the_acceleration_of_lift_off_is_undecided(sign):
         assert motion.certified == (abs(relative) == 1e-6)
 
 
+def test_a_crest_that_equals_lift_off_leaves_the_block_at_rest():
+    """Such a level is usual: 0.3 g of a block of 2 m × 0.6 m."""
+    block = rk.Block(2.0, 0.6)
+    for ground in rk.synthetic_ground_motions(4, seed=1):
+        for model in ("slender", "full"):
+            motion = rk.simulate(block.system(ground.scaled(0.3 * 9.80665 / ground.pga), model=model))
+            assert (motion.outcome, motion.certified) == ("at-rest", True)
+    for level in (1.0 - 2.0**-53, 1.0):
+        half_sine = rk.Pulse("half-sine", amplitude=level, duration=3.0)
+        motion = rk.simulate(rk.System(half_sine, restitution=0.8))
+        assert (motion.outcome, motion.certified) == ("at-rest", True)
+
+
 def test_a_block_that_never_moves_has_no_margin():
     motion = rk.simulate(rk.System(rk.PiecewiseLinear([0.0, 0.9, -0.9, 0.0], step=0.3), 0.9))
     assert math.isnan(motion.margin)

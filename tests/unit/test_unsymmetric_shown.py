@@ -129,6 +129,8 @@ def test_page_of_harmonic_motion_has_the_system_of_the_block():
     assert (chosen.block.restitution, chosen.block.left_restitution) == (0.9, 0.9)
     with pytest.raises(Refused, match="offset must be 0 with braces"):
         view.changed({"brace_angle": "5"})
+    with pytest.raises(Refused, match="offset must be 0 in normalised units"):
+        view.changed({"height": "", "width": ""})
     drawn = HarmonicView.from_address(f"{view.address}&curves=existence-1")[0]
     assert curves(drawn, drawn.map_axes) == {"xs": [], "ys": [], "dash": []}
 

@@ -51,7 +51,9 @@ function units(view) {
 
 find("units").onchange = event => {
   if (shown.si) size = { height: shown.fields.height, width: shown.fields.width };
-  ask("fields", event.target.value ? size : { height: "", width: "" });
+  const si = event.target.value;
+  units(shown); // until the view with the other units is there: a block with an offset keeps SI
+  ask("fields", si ? size : { height: "", width: "" });
 };
 find("model").onchange = event => ask("fields", { critical_angle: event.target.value === "full" ? shown.full : "" });
 

@@ -314,7 +314,8 @@ class HarmonicView(View):
         Raises
         ------
         Refused
-            If the critical angle is that of another block, or if its block cannot have its braces or its initial state.
+            If the critical angle is that of another block, if a block with an offset loses its size, or if its block cannot have its
+            braces or its initial state.
         """
         self._checked_block()
         view = self._with_angle_of_block()
@@ -323,6 +324,8 @@ class HarmonicView(View):
                 check_below_flat(view.brace_angle, view.critical_angle)
             except Refusal as error:
                 raise self.refused(error) from None
+        if view.offset and view.block is None:
+            raise Refused({"offset": "offset must be 0 in normalised units, which are for a symmetric block"})
         if view.left and view.brace_angle is not None:
             raise Refused({"offset": "offset must be 0 with braces, which are for a symmetric block"})
         try:

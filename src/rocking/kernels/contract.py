@@ -139,13 +139,21 @@ def next_event(p, mode, arc, guess):
 
 
 @contract
-def lift_off(p, arc, right_level, left_level):
-    """Find the lift-off of a slender block that rests: to the right where -a > ``right_level``, to the left where a > ``left_level``."""
+def lift_off(p, arc, left_level):
+    """Find the lift-off of a slender block that rests, to the right where -a > 1, to the left where a > ``left_level``."""
 
 
 @contract
-def side_above(p, start, drive, right_level, left_level):
+def side_above(p, start, drive, left_level):
     """Return the side to which a slender block at rest lifts now, with the levels of ``lift_off``; 0 if it stays."""
+
+
+@contract
+def holds_level(p, drive, coming, left_level):
+    """Return whether the base may hold a level of lift-off, up to rounding, between a drive and the lift-off or the proof that none follows.
+
+    Where it only touches a level, a block that lifts off returns before it has moved by more than rounding.
+    """
 
 
 @contract

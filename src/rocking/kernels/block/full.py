@@ -78,7 +78,7 @@ def stays_leaning(p, arc):
 def held_event(p, mode, arc):
     """Provide ``contract.held_event``: that of the slender block which rests as long."""
     if mode == REST:
-        return contract.lift_off(p.resting, arc, 1.0, p.block.left_level)
+        return contract.lift_off(p.resting, arc, p.block.left_level)
     found = contract.held_event(p.resting, mode, arc)
     return Next(found.wait, found.event, found.side, p.block.brace_angle, 0.0, found.drive, 0.0, 0.0)
 

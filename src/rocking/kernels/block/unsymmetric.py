@@ -276,7 +276,7 @@ def next_event(p, mode, arc, guess):
 @body(contract.held_event, Unsymmetric)
 def held_event(p, mode, arc):
     """Provide ``contract.held_event``: there are no braces."""
-    return contract.lift_off(right_half(p), arc, 1.0, p.block.left.ratio)
+    return contract.lift_off(right_half(p), arc, p.block.left.ratio)
 
 
 @body(contract.resting, Unsymmetric, inline=True)

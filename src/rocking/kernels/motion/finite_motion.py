@@ -17,7 +17,7 @@ import numpy as np
 
 from rocking.kernels.arc.arc import Arc, Next, shift_clock
 from rocking.kernels.block.impact import SLOW, SLOWEST, after_chattering, after_event
-from rocking.kernels.block.rest import lift_off_is_sure, start_is_sure
+from rocking.kernels.block.rest import rest_is_sure, start_is_sure
 from rocking.kernels.block.scatter import next_place
 from rocking.kernels.contract import (
     acceleration,
@@ -350,7 +350,7 @@ def to_end(p, angle, velocity, until, cut, want_peak, each):
             close = after_arc(p, arc, time, coming, extremes, stretch, close, error, each)
             closest = arc if close.time != before else closest
         if mode == REST and close.decided:
-            close = with_decided(close, lift_off_is_sure(p, arc))
+            close = with_decided(close, rest_is_sure(p, arc, coming))
         if coming.wait == math.inf or time + coming.wait > until:
             status = DONE if coming.wait < math.inf else OVERTURNED if mode == FLIGHT else STILL
             break
