@@ -150,7 +150,7 @@ def side_above(p, start, drive, left_level):
 
 @contract
 def holds_level(p, drive, coming, left_level):
-    """Return whether the base may hold a level of lift-off, up to rounding, between a drive and the lift-off or the proof that none follows.
+    """Return whether the base may hold a level of lift-off, up to rounding, from a drive to the lift-off or the proof that none follows.
 
     Where it only touches a level, a block that lifts off returns before it has moved by more than rounding.
     """
