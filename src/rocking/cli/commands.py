@@ -20,6 +20,7 @@ from rocking.cli.options import (
     JSON,
     LAW,
     MASS_CENTRE,
+    STANDING,
     MODEL,
     NETCDF,
     NORMALISED_BY,
@@ -102,7 +103,7 @@ MOTION_CSV = output(
 )
 UNSCATTERED = LAW[:2]
 """Options of the law of restitution of an analysis of recurrent motions, which takes no scatter."""
-BLOCK = (*quantities("height", "width", "restitution", *MASS_CENTRE), *LAW)
+BLOCK = (*quantities("height", "width", "restitution", *STANDING), *LAW)
 RANDOM_SEED = number("seed", "Random seed. Default: 0.")
 SURVEY_COUNTS = (
     number("max_cycles", "Maximum number of forcing cycles. Default: 10,000."),
@@ -117,7 +118,7 @@ COMMANDS = (
         inputs="requests.simulation",
         report="reports_motion.SIMULATE",
         options=(
-            *quantities(*SYSTEM, *START),
+            *quantities(*SYSTEM, "wall", *START),
             make(
                 "pulse",
                 TEXT,
@@ -165,7 +166,7 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
         options=(
             RECORD,
             *quantities(
-                "height", "width", "restitution", *MASS_CENTRE, "brace_angle", "brace_restitution", *START
+                "height", "width", "restitution", *STANDING, "brace_angle", "brace_restitution", *START
             ),
             *LAW,
             INERTIA_RATIO,
@@ -245,7 +246,7 @@ rocking slide example --friction 0.3 --pga-g 0.5 --plot slip.png
         report="reports_records.SPECTRUM",
         options=(
             SOURCES,
-            *quantities("height", "width", *MASS_CENTRE),
+            *quantities("height", "width", *STANDING),
             interval(
                 "size",
                 VALUES,
@@ -657,7 +658,7 @@ rocking ida example --height 2 --width 0.5 --pga-g 0.1:1.5:30 \\
         report="reports_surveys.OVERTURNING_SPECTRUM",
         options=(
             *quantities(
-                "height", "width", "restitution", "critical_angle", *MASS_CENTRE, kind=VALUES, varied=VARIABLE
+                "height", "width", "restitution", "critical_angle", *STANDING, kind=VALUES, varied=VARIABLE
             ),
             make(
                 "pulse",
