@@ -404,6 +404,7 @@ class System:
 
         Analyses in closed form, which exist for the slender block alone, take the forcing from here.
         """
+        check_no_wall(self)
         if self.critical_angle is not None:
             rule = "be None for this analysis, which has a closed form for the slender block alone"
             raise WrongType("critical_angle", rule, self.critical_angle)
@@ -439,8 +440,7 @@ class System:
             name = type(self.forcing).__name__
             remedy = "rk.simulate tells how its motion ends"
             raise WrongType("system", "have a periodic base motion, rk.Harmonic", Text(name), remedy)
-        allowed = "have no wall for an analysis of recurrent motions"
-        refuse_if(self.wall is not None, "system", allowed, Text(str(self.wall)), AGAINST_WALL)
+        check_no_wall(self)
         return self.forcing
 
 
@@ -544,13 +544,20 @@ def angle_doubt(angle: float, remedy: str | None = None) -> str:
 
 def check_symmetric(system: System, what: str) -> None:
     """Raise ValueError for an unsymmetric block in an analysis, `what`, that needs the mirror symmetry of the equations."""
+    check_no_wall(system)
     allowed = f"be a symmetric block for {what}"
     refuse_if(
         system.left is not None, "system", allowed, Text("one with a {left} side of its own"), UNSYMMETRIC
     )
 
 
-AGAINST_WALL = "rk.simulate and surveys of ground motions and pulses take it"
+def check_no_wall(system: System) -> None:
+    """Raise ValueError for a block against a wall in an analysis of recurrent motions."""
+    allowed = "have no wall for an analysis of recurrent motions"
+    remedy = "rk.simulate and surveys of ground motions and pulses take it"
+    refuse_if(system.wall is not None, "system", allowed, Text(str(system.wall)), remedy)
+
+
 UNSYMMETRIC = "rk.classify, rk.find_orbits and surveys need no symmetry"
 
 
