@@ -440,7 +440,6 @@ class System:
             name = type(self.forcing).__name__
             remedy = "rk.simulate tells how its motion ends"
             raise WrongType("system", "have a periodic base motion, rk.Harmonic", Text(name), remedy)
-        check_no_wall(self)
         return self.forcing
 
 
@@ -635,8 +634,9 @@ def check_periodic(system: System, start: State | None) -> State:
     TypeError
         If the base motion is not periodic, or as in `check_start`.
     ValueError
-        As in `check_start`, or for scatter of the restitution.
+        As in `check_start`, or for scatter of the restitution, or a wall.
     """
     instance("system", system, System).periodic  # noqa: B018 (it refuses)
     check_certain(system.restitution_scatter)
+    check_no_wall(system)
     return check_start(system, start)
