@@ -255,8 +255,14 @@ def test_a_survey_of_pulses_gives_the_results_of_single_motions():
 @pytest.mark.parametrize(
     ("make", "sentence"),
     [
-        (lambda: BLOCK.system(PULSE, wall=rk.Wall(0.5), braces=rk.Braces(0.5)), "braces must be omitted for a bl"),
-        (lambda: rk.System(PULSE, 0.9, left=rk.Wall(0.5)), "restitution must be that of the wall, 0.5; got 0.9"),
+        (
+            lambda: BLOCK.system(PULSE, wall=rk.Wall(0.5), braces=rk.Braces(0.5)),
+            "braces must be omitted for a bl",
+        ),
+        (
+            lambda: rk.System(PULSE, 0.9, left=rk.Wall(0.5)),
+            "restitution must be that of the wall, 0.5; got 0.9",
+        ),
         (lambda: rk.simulate(AGAINST, rk.State(-0.1, 0.0)), "start must start at an angle above 0"),
         (lambda: rk.Wall(1.1), "restitution must"),
         (lambda: rk.theory.ishiyama_levels(rk.Block(2.0, 0.6, wall=rk.Wall(0.5))), "block must be symmetric"),

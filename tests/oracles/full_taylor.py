@@ -131,7 +131,11 @@ class Block:
             h = min(float((self.step - t).mid()), LONGEST)
             at_end = h >= float((self.step - t).mid())
             push = self.values[k] + rate * t
-            c = slender_series(side, u, v, push, rate) if self.slender else series(alpha, side, u, v, push, rate)
+            c = (
+                slender_series(side, u, v, push, rate)
+                if self.slender
+                else series(alpha, side, u, v, push, rate)
+            )
             zero = first_zero(c, h)
             if zero is None:
                 stride = self.step - t if at_end else flint.arb(h)

@@ -1,5 +1,6 @@
-"""Motion of a block with unequal sides, or against a wall, by two methods: DOP853 of SciPy with events, and Runge-Kutta of order 4 with located impacts.
+"""Motion of a block with unequal sides, or against a wall, by two methods.
 
+They are DOP853 of SciPy with events, and Runge-Kutta of order 4 with located impacts.
 Nothing is taken from the package. The equation is that of the angle theta in rad, in units of time 1/p of the right side. With w =
 alpha_i sigma - theta on side sigma, theta'' = -p_i^2 (sin w + a cos w), or -p_i^2 (w + a) for a slender block; a is in g.
 """

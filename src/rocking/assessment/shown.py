@@ -142,7 +142,10 @@ def block_table(block: Block) -> Shown:
         ("critical angle θcr", both(degrees)),
         ("lift-off from rest above", both(lift)),
         ("frequency parameter p", both([f"{each:.4g} 1/s" for each in block.frequency_parameters])),
-        ("restitution e" if block.wall is None else "restitution e_w of the wall", f"{both([f'{each:.4g}' for each in e])}, {block.law}"),
+        (
+            "restitution e" if block.wall is None else "restitution e_w of the wall",
+            f"{both([f'{each:.4g}' for each in e])}, {block.law}",
+        ),
         ("Io/(MR²)", f"{block.inertia_ratio:.4g}"),
     ]
     if block.left is None:

@@ -12,10 +12,10 @@ from attrs import Factory, evolve, frozen
 from rocking.cli.options import (
     AMPLITUDES,
     AXIS_FORM,
-    STANDING,
     NORMALISED,
     RANGE_FORM,
     SI,
+    STANDING,
     START,
     SURVEYED,
     SYSTEM,

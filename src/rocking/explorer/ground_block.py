@@ -57,7 +57,10 @@ def _figures(
     angle = fullest * (1 + 2 * OVER)
     largest = max(float(np.abs(line["acceleration"]).max()), 1e-6) * (1 + 5 * OVER)
     history: dict[str, Any] = {"ranges": [0.0, end, -angle, angle], "line": {"time": times, "angle": degrees}}
-    history |= {"above": critical, "below": 0.0 if view.block.wall else -math.degrees(view.block.critical_angles[1])}
+    history |= {
+        "above": critical,
+        "below": 0.0 if view.block.wall else -math.degrees(view.block.critical_angles[1]),
+    }
     return {"history": history, "base": {"ranges": [0.0, end, -largest, largest], "line": line}}
 
 
@@ -80,7 +83,12 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
     facts: Facts = [
         ("block", f"{block.height:.4g} m × {block.width:.4g} m"),
         *_sides(block),
-        ("lifts off at", f"{right:.4g} g" if block.left is None else f"−{right:.4g} g" + (f", {left:.4g} g" if left < math.inf else "")),
+        (
+            "lifts off at",
+            f"{right:.4g} g"
+            if block.left is None
+            else f"−{right:.4g} g" + (f", {left:.4g} g" if left < math.inf else ""),
+        ),
     ]
     if moves and not overturned:
         facts.append(("largest |θ|", degrees_and_share(block, motion.peak)))

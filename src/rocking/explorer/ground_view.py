@@ -162,7 +162,10 @@ class GroundView(View):
         steps = math.log(self.sizes.high / self.sizes.low), self.angles.width / self.angles.high
         digits = max(math.ceil(-math.log10(min(steps) / (POINTS - 1))) + 2, 5)
         sides = {"height": 2 * size * math.cos(angle), "width": 2 * size * math.sin(angle)}
-        return {name: written(float(f"{side:.{digits}g}")) for name, side in sides.items()} | {"offset": "0", "wall": ""}
+        return {name: written(float(f"{side:.{digits}g}")) for name, side in sides.items()} | {
+            "offset": "0",
+            "wall": "",
+        }
 
 
 DEFAULT = GroundView()

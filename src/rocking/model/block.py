@@ -523,7 +523,9 @@ class Block(Dimensions):
             model = "slender" if base is None else "full"
         block = self if wall is None else evolve(self, wall=wall)
         if block.left is not None and braces is not None:
-            what, remedy = ("with unequal sides", "or omit {offset}") if block.wall is None else ("against a wall", "")
+            what, remedy = (
+                ("with unequal sides", "or omit {offset}") if block.wall is None else ("against a wall", "")
+            )
             got = Text(f"braces at {braces.angle:g}")
             raise WrongType("braces", f"be omitted for a block {what}", got, remedy)
         angle = critical_angle_for(model, self.critical_angle, self.width)

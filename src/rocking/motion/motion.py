@@ -423,7 +423,9 @@ class Motion(Trajectory, Result):
         speed = math.nan if self.block is None else margin_speed(self, self.block)
         if not math.isnan(speed):
             return f"{math.degrees(speed):.4g}°/s"
-        return f"{self.margin:.4g}" + (" αθcr of its side" if self.system.left and not self.system.wall else "")
+        return f"{self.margin:.4g}" + (
+            " αθcr of its side" if self.system.left and not self.system.wall else ""
+        )
 
     def _time(self, time: float) -> str:
         """Return a time as text; in s if the block is known."""

@@ -713,7 +713,9 @@ def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:
     }
     if "restitution" in checked:
         check_uniform(system.restitution_table, "an axis of an overturning spectrum")
-        refuse_if(system.wall is not None, "restitution", "be omitted for a block against a wall", Text("an axis"))
+        refuse_if(
+            system.wall is not None, "restitution", "be omitted for a block against a wall", Text("an axis")
+        )
     fixed = {name: own[name] for name in own if name not in checked}
     table, scatter = system.restitution_table, system.restitution_scatter
     return PulseSpec(checked, fixed, kind=forcing.kind, table=table, scatter=scatter)

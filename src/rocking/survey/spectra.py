@@ -58,8 +58,8 @@ def rocking_spectrum(
     records : RecordSet, GroundMotion or iterable of GroundMotion
         Ground motions.
     block : Block, optional
-        Block of which some quantities vary; of an unsymmetric one, or against a wall, only the size. Default: none; then give its size and its
-        slenderness.
+        Block of which some quantities vary; of an unsymmetric one, or against a wall, only the size. Default: none; then give its
+        size and its slenderness.
     levels : float or array (n,)
         Levels of the intensity measure to which each record is scaled. Default: 1, with the measure "scale" the record as it is.
     size : float or array (n,), optional

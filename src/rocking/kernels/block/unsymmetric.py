@@ -1,8 +1,9 @@
 """Slender block with unequal sides, for every motion of the base: on the left, u'' = rate^2 (u - ratio + a); on the right, u'' = u - 1 - a.
 
 In ``Units`` of its own each side is a slender block: its base acceleration is smaller by the ratio, and its times are longer by
-the rate. So all arcs are those of slender blocks. A block against a wall has no arcs on the left, whose ratio is infinite. ``half`` is the block of a side, and the bodies below change the units. The
-constants of an arc are in the units of its side; so is what ``contract`` says to be.
+the rate. So all arcs are those of slender blocks. ``half`` is the block of a side, and the bodies below change the units. The
+constants of an arc are in the units of its side; so is what ``contract`` says to be. A block against a wall has no arcs on the left,
+whose ratio is infinite.
 """
 
 import math
