@@ -33,8 +33,14 @@ class Case(NamedTuple):
             base = rk.PiecewiseLinear(base.values, step=base.step, scale=scale)
         return rk.System(base, self.e, critical_angle=self.alpha if self.full else None, left=rk.Wall(self.e))
 
+    @property
+    def until(self):
+        """Time up to which other methods follow the motion; it rests or has overturned by then, unless it is elastic."""
+        base = self.base
+        return (base.duration if isinstance(base, rk.Pulse) else base.values.size * base.step) + 45.0
+
     def motion(self, scale):
-        return rk.simulate(self.system(scale), self.start)
+        return rk.simulate(self.system(scale), self.start, duration=self.until if self.e == 1.0 else None)
 
     def falls(self, scale):
         return self.motion(scale).outcome == "overturned"
@@ -45,12 +51,11 @@ class Case(NamedTuple):
         if isinstance(base, rk.Pulse):
             turns, phase = base.cosine
             wave = g * base.amplitude, math.tau * turns / base.duration, phase, base.duration
-            shaking, end = oracle.Base(np.empty(0), 1.0, *wave), base.duration
+            shaking = oracle.Base(np.empty(0), 1.0, *wave)
         else:
             shaking = oracle.Base(base.values * g, base.step, 0.0, 1.0, 0.0, 0.0)
-            end = base.values.size * base.step
         block = oracle.Block((self.alpha,) * 2, (1.0, 1.0), (self.e,) * 2, self.full, wall=True)
-        return method(block, shaking, self.start.angle, self.start.velocity, end + 45.0)
+        return method(block, shaking, self.start.angle, self.start.velocity, self.until)
 
 
 def cases(count, seed, most=1.0):
