@@ -1,4 +1,4 @@
-"""Motion of the full block under samples by Taylor series in balls of python-flint, with 50 digits.
+"""Motion of a block under samples by Taylor series in balls of python-flint, with 50 digits: full or slender, free or against a wall.
 
 Nothing is taken from the package. The first zero of a step is that of its polynomial in doubles, refined with all digits.
 """
@@ -43,6 +43,14 @@ def series(alpha, side, u, v, push, rate):
     return [u, v, *(-wave / alpha for wave in waves[2:])]
 
 
+def slender_series(side, u, v, push, rate):
+    """Return the same for the slender block, u'' = u - 1 - side a."""
+    c = [u, v, (u - 1 - side * push) / 2, (v - side * rate) / 6]
+    for k in range(4, ORDER + 1):
+        c.append(c[k - 2] / (k * (k - 1)))
+    return c
+
+
 def value(c, t):
     """Return the polynomial and its derivative."""
     total, slope = flint.arb(0), flint.arb(0)
@@ -71,14 +79,18 @@ def first_zero(c, h):
 
 
 class Block:
-    """Block with an angle and a coefficient of restitution, under samples times a scale at a step, all doubles."""
+    """Block with an angle and a coefficient of restitution, under samples times a scale at a step, all doubles.
 
-    def __init__(self, values, step, scale, restitution, angle):
+    The angle of a slender block is 0. Against a wall the block lifts to side 1 only, and an impact turns u' to -e u' on that side.
+    """
+
+    def __init__(self, values, step, scale, restitution, angle, wall=False):
         with flint.ctx.workdps(DIGITS):
             self.values = [flint.arb(float(one)) * flint.arb(float(scale)) for one in values]
             self.step, self.e = flint.arb(float(step)), flint.arb(float(restitution))
             self.alpha = flint.arb(float(angle))
-            self.level = self.alpha.tan() / self.alpha
+            self.level = self.alpha.tan() / self.alpha if angle else flint.arb(1)
+            self.slender, self.wall = angle == 0, wall
 
     def lift_off(self, index, offset):
         """Return interval, time in it and side of the next lift-off; None if there is none."""
@@ -87,14 +99,18 @@ class Block:
             rate = (values[k + 1] - values[k]) / self.step
             start = values[k] + rate * offset if k == index else values[k]
             begun = offset if k == index else flint.arb(0)
-            if abs(start) > self.level:
+            if self.reaches(start) > self.level:
                 return k, begun, -1 if start > 0 else 1
-            if abs(values[k + 1]) > self.level:
+            if self.reaches(values[k + 1]) > self.level:
                 sign = 1 if values[k + 1] > 0 else -1
                 return k, middle((sign * self.level - values[k]) / rate), -sign
-            if not abs(values[k + 1]) <= self.level:
+            if not self.reaches(values[k + 1]) <= self.level:
                 raise Undecided
         return None
+
+    def reaches(self, push):
+        """Return what must exceed the level for a lift-off: |a|, or -a against a wall."""
+        return -push if self.wall else abs(push)
 
     def overturns(self, limit=60_000):
         """Return whether the block, at rest at first, overturns."""
@@ -114,17 +130,23 @@ class Block:
             rate = (self.values[k + 1] - self.values[k]) / self.step
             h = min(float((self.step - t).mid()), LONGEST)
             at_end = h >= float((self.step - t).mid())
-            c = series(alpha, side, u, v, self.values[k] + rate * t, rate)
+            push = self.values[k] + rate * t
+            c = (
+                slender_series(side, u, v, push, rate)
+                if self.slender
+                else series(alpha, side, u, v, push, rate)
+            )
             zero = first_zero(c, h)
             if zero is None:
                 stride = self.step - t if at_end else flint.arb(h)
                 u, v = map(middle, value(c, stride))
                 k, t = (k + 1, flint.arb(0)) if at_end else (k, middle(t + stride))
-                if alpha * u > 1.6:
+                if alpha * u > 1.6 or (self.slender and u > 1e6):
                     return True
                 continue
             speed = -e * value(c, zero)[1]
-            t, u, v, side = middle(t + zero), flint.arb(0), middle(speed), -side
+            t, u, v = middle(t + zero), flint.arb(0), middle(speed)
+            side = side if self.wall else -side
             if float(v.mid()) < STILL:
                 found = self.lift_off(k, t)
                 if found is None:
@@ -136,6 +158,8 @@ class Block:
     def falls_freely(self, u, v):
         """Return whether the block overturns after the base motion: by its energy, on this side or after the next impact."""
         alpha = self.alpha
+        if self.slender:
+            return bool(u - 1 + v > 0) or bool(self.e**2 * (1 + v**2 - (1 - u) ** 2) > 1)
         energy = alpha**2 * v**2 / 2 + (alpha * (1 - u)).cos()
         if (u <= 1 and v > 0 and energy > 1) or (u > 1 and (v >= 0 or energy < 1)):
             return True

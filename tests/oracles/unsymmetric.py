@@ -1,5 +1,6 @@
-"""Motion of a block with unequal sides by two methods: DOP853 of SciPy with events, and Runge-Kutta of order 4 with located impacts.
+"""Motion of a block with unequal sides, or against a wall, by two methods.
 
+They are DOP853 of SciPy with events, and Runge-Kutta of order 4 with located impacts.
 Nothing is taken from the package. The equation is that of the angle theta in rad, in units of time 1/p of the right side. With w =
 alpha_i sigma - theta on side sigma, theta'' = -p_i^2 (sin w + a cos w), or -p_i^2 (w + a) for a slender block; a is in g.
 """
@@ -17,12 +18,16 @@ RIGHT_ANGLE = 0.5 * math.pi
 
 
 class Block(NamedTuple):
-    """Critical angles, frequency parameters and coefficients of restitution of both sides; first the right one."""
+    """Critical angles, frequency parameters and coefficients of restitution of both sides; first the right one.
+
+    Against a wall only the right side counts: it lifts there only, and an impact turns theta' to -e theta'.
+    """
 
     alpha: tuple[float, float]
     rate: tuple[float, float]
     restitution: tuple[float, float]
     full: bool
+    wall: bool = False
 
 
 class Base(NamedTuple):
@@ -73,7 +78,7 @@ def lifts(block, push):
     """Side to which a block at rest lifts; 0 if it stays."""
     if -push > level_of(block, 0):
         return 1
-    return -1 if push > level_of(block, 1) else 0
+    return -1 if push > level_of(block, 1) and not block.wall else 0
 
 
 @njit
@@ -145,7 +150,10 @@ def by_runge_kutta(block, base, theta, speed, until, longest):
                     high = middle
             _, fast = rk4(block, base, side, part, theta, speed, time, high)
             time, theta, speed = time + high, 0.0, block.restitution[0 if side > 0 else 1] * fast
-            side = -side
+            if block.wall:
+                speed = -speed
+            else:
+                side = -side
             if abs(speed) < STILL * alpha:
                 side, speed = lifts(block, acceleration_in(base, part, time)), 0.0
                 resting = side == 0
@@ -243,7 +251,7 @@ def with_dop853(block, base, angle=0.0, velocity=0.0, until=math.inf):
             peak = max(peak, abs(theta) / alpha)
             if made.t_events[0].size:
                 speed *= block.restitution[0 if side > 0 else 1]
-                theta, side = 0.0, -side
+                theta, side, speed = (0.0, side, -speed) if block.wall else (0.0, -side, speed)
                 if abs(speed) < 1e2 * STILL * alpha:
                     side, speed = lifts(block, push(time)), 0.0
                     resting = side == 0

@@ -130,7 +130,7 @@ def symbol_of(each: Assessment, name: str = "") -> str:
 
 def block_table(block: Block) -> Shown:
     """Return the properties of a block."""
-    both = partial(_both, block.left is not None)
+    both = partial(_both, block.left is not None and block.wall is None)
     degrees = [f"{math.degrees(angle):.2f}°" for angle in block.critical_angles]
     lift = [f"{math.tan(angle):.3f} g" for angle in block.critical_angles]
     e = block.restitution, block.left_restitution
@@ -142,7 +142,10 @@ def block_table(block: Block) -> Shown:
         ("critical angle θcr", both(degrees)),
         ("lift-off from rest above", both(lift)),
         ("frequency parameter p", both([f"{each:.4g} 1/s" for each in block.frequency_parameters])),
-        ("restitution e", f"{both([f'{each:.4g}' for each in e])}, {block.law}"),
+        (
+            "restitution e" if block.wall is None else "restitution e_w of the wall",
+            f"{both([f'{each:.4g}' for each in e])}, {block.law}",
+        ),
         ("Io/(MR²)", f"{block.inertia_ratio:.4g}"),
     ]
     if block.left is None:

@@ -35,6 +35,7 @@ from rocking.cli.options import (
     RECORD,
     REPAIR,
     SOURCES,
+    STANDING,
     START,
     STEP,
     STORE,
@@ -102,7 +103,7 @@ MOTION_CSV = output(
 )
 UNSCATTERED = LAW[:2]
 """Options of the law of restitution of an analysis of recurrent motions, which takes no scatter."""
-BLOCK = (*quantities("height", "width", "restitution", *MASS_CENTRE), *LAW)
+BLOCK = (*quantities("height", "width", "restitution", *STANDING), *LAW)
 ALL_RECORDS = (POLARITY, MODEL, NORMALISED_BY, *READING, COMPONENT)
 """Options of the motions under every record of a set."""
 RECORDS_AND_LEVELS = (SOURCES, *BLOCK, *quantities("angle"), *levels(), INERTIA_RATIO, *ALL_RECORDS)
@@ -127,7 +128,7 @@ COMMANDS = (
         inputs="requests.simulation",
         report="reports_motion.SIMULATE",
         options=(
-            *quantities(*SYSTEM, *START),
+            *quantities(*SYSTEM, "wall", *START),
             make(
                 "pulse",
                 TEXT,
@@ -175,7 +176,7 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
         options=(
             RECORD,
             *quantities(
-                "height", "width", "restitution", *MASS_CENTRE, "brace_angle", "brace_restitution", *START
+                "height", "width", "restitution", *STANDING, "brace_angle", "brace_restitution", *START
             ),
             *LAW,
             INERTIA_RATIO,
@@ -255,7 +256,7 @@ rocking slide example --friction 0.3 --pga-g 0.5 --plot slip.png
         report="reports_records.SPECTRUM",
         options=(
             SOURCES,
-            *quantities("height", "width", *MASS_CENTRE),
+            *quantities("height", "width", *STANDING),
             interval(
                 "size",
                 VALUES,
@@ -611,7 +612,7 @@ rocking ida example --height 2 --width 0.5 --pga-g 0.1:1.5:30 \\
         report="reports_surveys.OVERTURNING_SPECTRUM",
         options=(
             *quantities(
-                "height", "width", "restitution", "critical_angle", *MASS_CENTRE, kind=VALUES, varied=VARIABLE
+                "height", "width", "restitution", "critical_angle", *STANDING, kind=VALUES, varied=VARIABLE
             ),
             make(
                 "pulse",

@@ -19,6 +19,8 @@ SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "freq
 FORCED = (*NORMALISED, *SI, "restitution")
 MASS_CENTRE = ("offset", "centre_height", "radius_of_gyration")
 """Options in SI that place the mass centre of a block, and state its inertia."""
+STANDING = (*MASS_CENTRE, "wall")
+"""The same, and the wall against which the block stands."""
 SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution", "critical_angle", *MASS_CENTRE)
 START = ("angle", "velocity")
 SURVEYED = (
@@ -501,6 +503,7 @@ TEXTS = {name: each.help for name, each in SYSTEM_QUANTITIES.items()} | {
     "Θ > 0. Default: 0.",
     "centre_height": "Height of the mass centre above the base, m. Default: half the height.",
     "radius_of_gyration": "Radius of gyration about the mass centre, m. Default: that of a uniform rectangle.",
+    "wall": "Coefficient of restitution, in [0, 1], of a wall on the side Θ < 0, against which the block stands. Default: no wall.",
 }
 """Help of the options of a system and an initial state, the same in all commands."""
 

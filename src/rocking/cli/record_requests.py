@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from attrs import evolve
 
-from rocking.cli.options import LEVELS, MASS_CENTRE, SA_PERIOD, InvalidInput, option, refusals
+from rocking.cli.options import LEVELS, SA_PERIOD, STANDING, InvalidInput, option, refusals
 from rocking.cli.requests import (
     LAWS,
     Options,
@@ -24,6 +24,7 @@ from rocking.cli.requests import (
     require,
     restitution_of,
     select,
+    standing_of,
     start_of,
     values_of,
 )
@@ -56,7 +57,8 @@ def block_in_si(options: Options) -> Block:
             options["height"],
             options["width"],
             restitution_of(options),
-            **select(options, "inertia_ratio", *MASS_CENTRE),
+            **select(options, "inertia_ratio"),
+            **standing_of(options),
         )
 
 
@@ -270,7 +272,7 @@ def scaled_records(options: Options) -> Request:
     others = {
         name: value
         for name, value in own_arguments(options).items()
-        if name not in (*LEVELS, SA_PERIOD, *OF_SET, *MASS_CENTRE, "inertia_ratio")
+        if name not in (*LEVELS, SA_PERIOD, *OF_SET, *STANDING, "inertia_ratio")
     }
     arguments = {
         "records": records,
@@ -341,7 +343,7 @@ def spectrum(options: Options) -> Request:
             *("repair", "store"),
         ).items()
     }
-    of_one_block = [name for name in (*LAWS, *MASS_CENTRE) if name in options]
+    of_one_block = [name for name in (*LAWS, *STANDING) if name in options]
     if of_one_block and not isinstance(options.get("restitution", 0.0), int | float):
         raise InvalidInput(f"--restitution must be a number with {option(of_one_block[0])}; got an axis")
     if any(name in options for name in LAWS):
@@ -379,7 +381,7 @@ def shape(options: Options) -> dict[str, Any]:
     result = {"size": values_of(options["size"])} if "size" in options else {}
     if "slenderness_deg" in options:
         result["slenderness"] = radians(values_of(options["slenderness_deg"]))
-    if select(options, *MASS_CENTRE):
+    if select(options, *STANDING):
         return {"block": block_in_si(options)} | result
     if len(sides) == 2:
         with refusals():

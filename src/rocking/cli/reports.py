@@ -13,7 +13,7 @@ from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY, with_unit
 from rocking.model.forcing import Pulse
 from rocking.model.quantity import IN_SI
-from rocking.model.system import LeftSide, System, angle_doubt
+from rocking.model.system import Side, System, Wall, angle_doubt
 from rocking.model.text import counted
 from rocking.model.verdict import Verdict
 
@@ -46,7 +46,8 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
         slender = system.critical_angle is None
         yield "equation of motion", f"small angles{unit}" if slender else "full", ""
         if block.left is not None:
-            yield "left side", left_text(system.left), f"{math.degrees(block.critical_angles[1]):.4g}°"
+            angle = "" if block.wall else f"{math.degrees(block.critical_angles[1]):.4g}°"
+            yield "left side", left_text(system.left), angle
     elif system.critical_angle is not None:
         yield "critical angle", f"θcr = {system.critical_angle:.6g} rad, full equation of motion", ""
     if block is None and system.left is not None:
@@ -61,10 +62,12 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
         yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
 
 
-def left_text(left: LeftSide | None) -> str:
-    """Return the left side of an unsymmetric block in units of the right one."""
+def left_text(left: Side | None) -> str:
+    """Return the left side of an unsymmetric block in units of the right one, or the wall there."""
     if left is None:
         return "as the right one"
+    if isinstance(left, Wall):
+        return f"wall, e_w = {left.restitution:.6g}"
     return f"θcr2 = {left.angle_ratio:.6g}, α2 = {left.frequency_ratio:.6g}, e21 = {left.restitution:.6g}"
 
 

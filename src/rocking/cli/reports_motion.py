@@ -352,7 +352,8 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     """Yield the rows of the block and its initial state."""
     yield "block", f"{block.size}, Io/(MR²) = {block.inertia_ratio:.4g}"
     angles = [f"{math.degrees(angle):.4g}°" for angle in block.critical_angles]
-    sides = f" for θ > 0, {angles[1]} for θ < 0" if block.left is not None else ""
+    both = block.left is not None and block.wall is None
+    sides = f" for θ > 0, {angles[1]} for θ < 0" if both else ""
     yield "critical angle", f"{angles[0]}{sides}"
     full = motion.system.critical_angle is not None
     braced = motion.system.braces is not None
@@ -362,8 +363,11 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     )
     yield "time unit 1/α", f"{block.seconds(1.0):.4g} s"
     yield "lift-off from rest", lift_off_text(motion.system, block)
-    left = "" if block.left is None else f" for θ > 0, {block.left_restitution:.6g} for θ < 0"
-    yield "restitution", f"e = {block.restitution:.6g}{left}, {origin(block)}"
+    left = f" for θ > 0, {block.left_restitution:.6g} for θ < 0" if both else ""
+    if block.wall is None:
+        yield "restitution", f"e = {block.restitution:.6g}{left}, {origin(block)}"
+    else:
+        yield "wall", f"on the side θ < 0, e_w = {block.wall.restitution:.6g}"
     braces = motion.system.braces
     if braces is not None:
         yield "braces", f"{block.degrees(braces.angle):.4g}°, r = {braces.restitution:.6g}"
@@ -372,9 +376,13 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
 
 def lift_off_text(system: System, block: Block) -> str:
     """Return the base accelerations of lift-off; of a block with unequal sides, that of each direction."""
-    right, left = (in_si("amplitude", level, block) for level in system.lift_offs)
+    first, second = system.lift_offs
+    right = in_si("amplitude", first, block)
     if block.left is None:
         return f"above {right}"
+    if system.wall is not None:
+        return f"to θ > 0 below −{right.replace('= ', '= −')}"
+    left = in_si("amplitude", second, block)
     return f"to θ > 0 below −{right.replace('= ', '= −')}, to θ < 0 above {left}"
 
 
@@ -382,7 +390,7 @@ def record_rows(motion: Motion, block: Block, friction: float | None) -> Iterato
     """Yield the rows of the result."""
     yield "impacts", counted_impacts(motion)
     if motion.overturning is None:
-        side = "" if block.left is None else " of θ > 0"
+        side = "" if block.left is None or block.wall else " of θ > 0"
         yield "largest |θ|", f"{reach(motion.peak, block)}, {motion.peak:.4g} θcr{side}"
     yield margin_name(motion), margin_text(motion, block)
     yield from other_equation(motion)

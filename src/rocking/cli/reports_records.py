@@ -110,6 +110,8 @@ def spectrum_rows(data: xr.Dataset, records: RecordSet) -> Iterator[Row]:
         if named
         else f"{factor}Housner's for each slenderness",
     )
+    if "wall_restitution" in data.attrs:
+        yield "", "of a wall on the side θ < 0"
     if "restitution_table_rad_per_s" in data.attrs:
         yield "", f"table of {len(data.attrs['restitution_table_rad_per_s']) // 2} speeds"
     if "restitution_deviation" in data.attrs:

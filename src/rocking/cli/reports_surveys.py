@@ -318,7 +318,7 @@ def spectrum_rows(data: xr.Dataset, block: Block | None) -> Iterator[Row]:
     for name in map(str, data.outcome.dims):
         first, last = data[name].values[[0, -1]]
         yield name, f"{first:.6g} to {last:.6g} ({data.sizes[name]:,})", in_si(name, (first, last), block)
-    for name in ("restitution", *LEFT_QUANTITIES):
+    for name in ("restitution", *LEFT_QUANTITIES, "wall_restitution"):
         if name in data.attrs:
             law = law_text(block) if name == "restitution" else ""
             yield name.replace("_", " "), f"{data.attrs[name]:.6g}", law

@@ -12,10 +12,10 @@ from attrs import Factory, evolve, frozen
 from rocking.cli.options import (
     AMPLITUDES,
     AXIS_FORM,
-    MASS_CENTRE,
     NORMALISED,
     RANGE_FORM,
     SI,
+    STANDING,
     START,
     SURVEYED,
     SYSTEM,
@@ -32,7 +32,7 @@ from rocking.model.block_formulas import with_unit
 from rocking.model.forcing import Harmonic, Pulse
 from rocking.model.quantity import FRICTION, SYSTEM_QUANTITIES
 from rocking.model.restitution import Restitution
-from rocking.model.system import NO_BRACES, Braces, State, System, normalisation_for
+from rocking.model.system import NO_BRACES, Braces, State, System, Wall, normalisation_for
 from rocking.model.system import quantities as quantities_of
 from rocking.model.system import system_of as system_with
 from rocking.model.validation import NoOrbit, Refusal, whole, within
@@ -126,7 +126,7 @@ def system_of(options: Options) -> tuple[System, Block | None]:
         raise InvalidInput(f"no system is given: give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
     if normalised:
         require(options, (("amplitude",), ("period", "frequency"), ("restitution",)), NORMALISED_NEEDS)
-        for name in select(options, *MASS_CENTRE):
+        for name in select(options, *STANDING):
             raise InvalidInput(f"{option(name)} needs a block in SI: give --height and --width")
         if "model" in options:
             raise InvalidInput("--model needs a block in SI: give --critical-angle with normalised input")
@@ -151,7 +151,7 @@ def system_of(options: Options) -> tuple[System, Block | None]:
                 options["height"],
                 options["width"],
                 restitution_of(options),
-                **select(options, *MASS_CENTRE),
+                **standing_of(options),
             )
             base = select(options, *SI[2:], "phase")
             by = {} if "pulse" in options else select(options, "normalised_by")
@@ -221,7 +221,8 @@ def pulsed(system: System, options: Options) -> System:
         if options.get(name):
             raise InvalidInput(f"{option(name)} belongs to harmonic motion: omit it with --pulse")
     part = 0.5 if options["pulse"] == "half-sine" else 1.0
-    wave, block = system.periodic, by_normalisation(system.block, options)
+    wave, block = system.forcing, by_normalisation(system.block, options)
+    assert isinstance(wave, Harmonic)
     amplitude = wave.amplitude * unit_ratio(block)
     forcing = Pulse(options["pulse"], amplitude=amplitude, duration=part * wave.period)
     return evolve(system, forcing=forcing, block=block)
@@ -238,6 +239,15 @@ def by_normalisation(block: Block | None, options: Options) -> Block | None:
 def unit_ratio(block: Block | None) -> float:
     """Return g θcr in units of the acceleration of a block; 1 for normalised input."""
     return 1.0 if block is None else block.critical_angle / block.acceleration_unit_g
+
+
+def standing_of(options: Options) -> dict[str, Any]:
+    """Return the arguments of a block that place its mass centre, state its inertia, and put it against a wall."""
+    given = select(options, *STANDING)
+    if "wall" in given:
+        with refusals({"restitution": option("wall")}):
+            given["wall"] = Wall(given["wall"])
+    return given
 
 
 def braces_of(options: Options) -> Braces | None:
@@ -543,9 +553,7 @@ def block_of(options: Options) -> Block | None:
         first = restitution.start if isinstance(restitution, Axis) else restitution[0].item()
         options = {**options, "restitution": first}
     with refusals():
-        return Block(
-            options["height"], options["width"], restitution_of(options), **select(options, *MASS_CENTRE)
-        )
+        return Block(options["height"], options["width"], restitution_of(options), **standing_of(options))
 
 
 def check_entry(key: str, name: str, value: Any) -> None:

@@ -333,6 +333,12 @@ function frame() {
   ink.fillRect(-table, 0, 2 * table, 9);
   ink.fillStyle = inks.accent;
   ink.beginPath(); ink.moveTo(-4, 9); ink.lineTo(4, 9); ink.lineTo(0, 2); ink.fill();
+  if (film.wall) {
+    const thick = 0.06 * tall;
+    ink.strokeStyle = inks.edge;
+    ink.strokeRect(-half - thick, -1.04 * tall, thick, 1.04 * tall);
+    for (let at = 0; at > -1.04 * tall; at -= thick) { ink.beginPath(); ink.moveTo(-half - thick, at); ink.lineTo(-half, Math.max(at - thick, -1.04 * tall)); ink.stroke(); }
+  }
   ink.translate(turn > 0 ? half : -half, 0);
   ink.rotate(turn);
   ink.translate(turn > 0 ? -half : half, 0);

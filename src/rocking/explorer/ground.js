@@ -156,8 +156,8 @@ function legend(message) {
 // ---- the animation, seen from the base
 
 function scene() {
-  const { time, angle: degrees } = columns("history"), { height, width, critical, centre } = shown.block;
-  shoot(Array.from(degrees, value => value * Math.PI / 180 / critical), critical, height, { time, width, centre, moves: 1, displacement: () => 0, speed: 1 });
+  const { time, angle: degrees } = columns("history"), { height, width, critical, centre, wall } = shown.block;
+  shoot(Array.from(degrees, value => value * Math.PI / 180 / critical), critical, height, { time, width, centre, wall, moves: 1, displacement: () => 0, speed: 1 });
   clock = Math.min(clock, time[time.length - 1] ?? 0);
   find("scale-note").textContent = film.angles > 1.05 ? `angle × ${film.angles.toPrecision(2)}` : "true to scale";
   frame();

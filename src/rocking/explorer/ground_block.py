@@ -37,7 +37,7 @@ def block_motion(view: GroundView, ground: Ground) -> tuple[Contents, dict[str, 
     fullest = max(float(np.abs(degrees).max()), 0.2 * block.degrees(1.0))
     words = _words(motion, block)
     return _figures(view, ground, times, degrees, fullest), words | {
-        "sentence": f"{SENTENCES[words['kind']]}{factor_in_words(view)}{SYMMETRIC if block.left else ''}"
+        "sentence": f"{SENTENCES[words['kind']]}{factor_in_words(view)}{SYMMETRIC[block.wall is not None] if block.left else ''}"
     }
 
 
@@ -57,7 +57,10 @@ def _figures(
     angle = fullest * (1 + 2 * OVER)
     largest = max(float(np.abs(line["acceleration"]).max()), 1e-6) * (1 + 5 * OVER)
     history: dict[str, Any] = {"ranges": [0.0, end, -angle, angle], "line": {"time": times, "angle": degrees}}
-    history |= {"above": critical, "below": -math.degrees(view.block.critical_angles[1])}
+    history |= {
+        "above": critical,
+        "below": 0.0 if view.block.wall else -math.degrees(view.block.critical_angles[1]),
+    }
     return {"history": history, "base": {"ranges": [0.0, end, -largest, largest], "line": line}}
 
 
@@ -80,7 +83,12 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
     facts: Facts = [
         ("block", f"{block.height:.4g} m × {block.width:.4g} m"),
         *_sides(block),
-        ("lifts off at", f"{right:.4g} g" if block.left is None else f"−{right:.4g} g, {left:.4g} g"),
+        (
+            "lifts off at",
+            f"{right:.4g} g"
+            if block.left is None
+            else f"−{right:.4g} g" + (f", {left:.4g} g" if left < math.inf else ""),
+        ),
     ]
     if moves and not overturned:
         facts.append(("largest |θ|", degrees_and_share(block, motion.peak)))
@@ -100,11 +108,11 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
 
 def _sides(block: Block) -> Facts:
     """Return R, θcr and e, of both sides of an unsymmetric block."""
-    if block.left is None:
+    if block.left is None or block.wall is not None:
         return [
             ("R", f"{block.radius:.4g} m"),
             ("θcr", f"{block.degrees(1.0):.4g}°"),
-            ("e", f"{block.restitution:.4g} (Housner)"),
+            ("e", f"{block.restitution:.4g} ({'Housner' if block.wall is None else 'wall'})"),
         ]
     angles, radii, kept = block.critical_angles, block.radii, (block.restitution, block.left_restitution)
     return [
@@ -121,7 +129,7 @@ SENTENCES = {
     "overturns": "The block falls over.",
 }
 """What an outcome means for the block."""
-SYMMETRIC = " The blocks of the map have no offset."
+SYMMETRIC = " The blocks of the map have no offset.", " The blocks of the map have no wall."
 
 
 def factor_in_words(view: GroundView) -> str:
@@ -153,7 +161,7 @@ def margin_in_words(motion: Motion, block: Block) -> str:
     if math.isnan(motion.margin):
         return "The block never lifts off."
     size, time = abs(motion.margin), block.seconds(motion.margin_time)
-    side = " of its side" if block.left is not None else ""
+    side = " of its side" if block.left is not None and block.wall is None else ""
     speed = f"{size:.3g} α θcr{side} = {math.degrees(abs(margin_speed(motion, block))):.3g} °/s"
     if motion.margin >= 0.0:
         return f"Closest decision at t = {time:.4g} s: the block was faster than it had to be to overturn, by {speed}."

@@ -156,6 +156,7 @@ class GroundSession(Session):
                 "width": view.width,
                 "critical": view.block.critical_angle,
                 "centre": [view.offset, view.block.centre_height] if view.offset else None,
+                "wall": view.wall is not None,
             },
         }
 
@@ -208,7 +209,7 @@ class GroundSession(Session):
 
     JOBS = (
         Job("map", refine_map, (*SHAKEN, "sizes", "angles"), ("map",)),
-        Job("motion", draw_motion, (*SHAKEN, "height", "width", "offset"), ("verdict",)),
+        Job("motion", draw_motion, (*SHAKEN, "height", "width", "offset", "wall"), ("verdict",)),
     )
 
 

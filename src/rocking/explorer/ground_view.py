@@ -18,7 +18,7 @@ from rocking.model.block_formulas import GRAVITY, NORMALISATIONS
 from rocking.model.changed_motion import STEPS
 from rocking.model.forcing import KINDS, Pulse
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
-from rocking.model.system import MODELS, critical_angle_for
+from rocking.model.system import MODELS, Wall, critical_angle_for
 from rocking.model.validation import Refusal
 from rocking.records.read import example_ground_motion, read_apart
 from rocking.records.synthetic import synthetic_ground_motions
@@ -77,6 +77,8 @@ class GroundView(View):
         Factor of the base motion.
     height, width, offset : float
         Block, and the distance of its mass centre from the middle of the base towards the edge of θ > 0, in m.
+    wall : float or None
+        Coefficient of restitution of the wall against which the block stands; None without a wall.
     model : str
         Equation of motion: "slender" or "full".
     normalised_by : str
@@ -100,6 +102,7 @@ class GroundView(View):
     height: float = entry(2.0, number(*quantities.SIZES))
     width: float = entry(0.5, number(*quantities.SIZES))
     offset: float = entry(0.0, number(-quantities.SIZES[1], quantities.SIZES[1]))
+    wall: float | None = entry(None, optional(number(0.0, 1.0)))
     model: str = entry("full", word(*MODELS))
     normalised_by: str = entry("tangent", word(*NORMALISATIONS))
     sizes: Span = axis(Span(0.2, 10.0), *SIZES, distinct, ENDS)
@@ -108,8 +111,9 @@ class GroundView(View):
 
     @property
     def block(self) -> Block:
-        """Selected block: a rectangle with Housner's restitution, uniform but for the offset of its mass centre."""
-        return Block(self.height, self.width, offset=self.offset)
+        """Selected block: a rectangle with Housner's restitution or that of a wall, uniform but for the offset of its mass centre."""
+        wall = None if self.wall is None else Wall(self.wall)
+        return Block(self.height, self.width, offset=self.offset, wall=wall)
 
     @property
     def shaking(self) -> tuple[Any, ...]:
@@ -149,16 +153,19 @@ class GroundView(View):
         return self
 
     def at_point(self, size: float, degrees: float) -> dict[str, str]:
-        """Return height, width and offset, as text, of the block at a point of the map, with digits finer than the points.
+        """Return height, width, offset and wall, as text, of the block at a point of the map, with digits finer than the points.
 
-        The blocks of the map are symmetric.
+        The blocks of the map are symmetric, and have no wall.
         """
         size = min(max(size, self.sizes.low), self.sizes.high)
         angle = math.radians(min(max(degrees, self.angles.low), self.angles.high))
         steps = math.log(self.sizes.high / self.sizes.low), self.angles.width / self.angles.high
         digits = max(math.ceil(-math.log10(min(steps) / (POINTS - 1))) + 2, 5)
         sides = {"height": 2 * size * math.cos(angle), "width": 2 * size * math.sin(angle)}
-        return {name: written(float(f"{side:.{digits}g}")) for name, side in sides.items()} | {"offset": "0"}
+        return {name: written(float(f"{side:.{digits}g}")) for name, side in sides.items()} | {
+            "offset": "0",
+            "wall": "",
+        }
 
 
 DEFAULT = GroundView()

@@ -77,6 +77,11 @@ def is_symmetric(p):
 
 
 @contract
+def has_wall(p):
+    """Return whether the block stands against a wall: it lifts off to the right only, and an impact returns it to that side."""
+
+
+@contract
 def units_of(p, side):
     """Return the ``Units`` of a side of a slender block."""
 

@@ -31,7 +31,10 @@ NO_LAW = np.empty((0, 2))
 
 
 class LeftSide(NamedTuple):
-    """Left side of a block (theta < 0), relative to the right one."""
+    """Left side of a block (theta < 0), relative to the right one.
+
+    The side of a wall has an infinite ratio, so that no base acceleration lifts the block to it.
+    """
 
     ratio: float  # of the critical angles
     rate: float  # ratio of the frequency parameters
@@ -104,7 +107,7 @@ class FullBlock(NamedTuple):
     level: (
         float  # tan(alpha)/alpha: base acceleration at which it lifts off to the right, in units of g alpha
     )
-    left_level: float  # base acceleration of the lift-off to the left, relative to that
+    left_level: float  # base acceleration of the lift-off to the left, relative to that; infinite at a wall
     # Brace angle of the slender block that stays at its brace as long as this one.
     resting_brace: float
     law: Floats2  # (n, 2): speed before an impact, ascending, and coefficient of restitution; n = 0 for a constant
@@ -181,16 +184,21 @@ def full_side(critical_angle, ratio, rate, restitution):
 
 @entry_point
 def sides_of(critical_angle: float, brace_angle: float, restitution: float, left: LeftSide) -> Sides:
-    """Return the ``Sides``. At a brace the block stays while side * A < tan(alpha (brace_angle - 1))/alpha."""
+    """Return the ``Sides``. At a brace the block stays while side * A < tan(alpha (brace_angle - 1))/alpha.
+
+    Against a wall the left side, which no arc has, is equal to the right one.
+    """
+    wall = left.ratio == math.inf
+    ratio = 1.0 if wall else left.ratio
     tangent = tangent_of(critical_angle)
     level, resting_brace = tangent / critical_angle, math.inf
     if brace_angle < math.inf:
         resting_brace = 1.0 + tangent_of(critical_angle * (brace_angle - 1.0)) / (critical_angle * level)
     return Sides(
         full_side(critical_angle, 1.0, 1.0, restitution),
-        full_side(critical_angle, left.ratio, left.rate, left.restitution),
+        full_side(critical_angle, ratio, left.rate, left.restitution),
         level,
-        tangent_of(critical_angle * left.ratio) / tangent,
+        math.inf if wall else tangent_of(critical_angle * ratio) / tangent,
         resting_brace,
     )
 
@@ -488,7 +496,8 @@ def sampled_system(
     """Return the system of a block under samples. ``left_tables`` are those of a slender block with unequal sides, else made here."""
     forcing, clock = Samples(float(scale), tables), Clock(float(cycle_length))
     if isinstance(block, UnsymmetricBlock):
-        own = left_tables or tables_of(tables.samples, tables.step * block.left.rate)
+        same = tables if block.left.rate == 1.0 else None
+        own = left_tables or same or tables_of(tables.samples, tables.step * block.left.rate)
         return unsymmetric_samples.py_func(block, float(scale), tables, own, float(cycle_length))
     if isinstance(block, SlenderBlock):
         return Slender(block, forcing, clock)

@@ -24,7 +24,15 @@ from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, LEFT_RESTITUTION, SIZES
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, checked_law, law_of
 from rocking.model.section import SYMMETRIC, section_of
-from rocking.model.system import Braces, LeftSide, System, critical_angle_for, normalisation_for
+from rocking.model.system import (
+    Braces,
+    LeftSide,
+    Side,
+    System,
+    Wall,
+    critical_angle_for,
+    normalisation_for,
+)
 from rocking.model.validation import (
     MAX_REAL,
     Refusal,
@@ -86,6 +94,11 @@ def _or_rectangle(inertia_ratio: float | None) -> float:
     return RECTANGLE if inertia_ratio is None else inertia_ratio
 
 
+def checked_wall(value: Wall | None) -> Wall | None:
+    """Return a wall, after checking its type."""
+    return None if value is None else instance("wall", value, Wall)
+
+
 def checked_normalisation(value: str) -> str:
     """Return the name of the unit of acceleration, after checking."""
     return one_of("normalised_by", value, NORMALISATIONS)
@@ -131,6 +144,9 @@ class Block(Dimensions):
     left_restitution : float, optional
         Coefficient of restitution of an impact that ends the motion on the side θ < 0; `restitution` is then that of the other
         impacts. Default: `restitution`, or the value that conserves the angular momentum about the corner of the impact.
+    wall : Wall, optional
+        Wall on the side θ < 0. Its coefficient of restitution is then that of all impacts, and the other ones have no effect.
+        Default: none.
 
     Raises
     ------
@@ -188,6 +204,7 @@ class Block(Dimensions):
         default=None, converter=checked_radius_of_gyration, kw_only=True
     )
     _left_restitution: float | None = field(default=None, converter=checked_left_restitution, kw_only=True)
+    wall: Wall | None = field(default=None, converter=checked_wall, kw_only=True)
 
     def __attrs_post_init__(self) -> None:
         self._check_mass_centre()
@@ -299,6 +316,7 @@ class Block(Dimensions):
             centre_height=None if centre is None else centre * (height / self.height),
             radius_of_gyration=None if gyration is None else gyration * stretch,
             left_restitution=self._left_restitution,
+            wall=self.wall,
             normalised_by=self.normalised_by,
         )
 
@@ -394,8 +412,8 @@ class Block(Dimensions):
 
     @property
     def law(self) -> Restitution:
-        """Law of restitution."""
-        return law_of(self._restitution)
+        """Law of restitution; of a block against a wall that of the wall, a number."""
+        return law_of(self._restitution if self.wall is None else self.wall.restitution)
 
     @property
     def restitution(self) -> float:
@@ -405,7 +423,7 @@ class Block(Dimensions):
     @property
     def left_restitution(self) -> float:
         """Coefficient of restitution e₂₁ of an impact from side 2 to side 1: the given value, `restitution`, or Housner's."""
-        if self._left_restitution is not None:
+        if self._left_restitution is not None and self.wall is None:
             return self._left_restitution
         return self.law.coefficient(self.housner_restitutions[1])
 
@@ -415,8 +433,10 @@ class Block(Dimensions):
         return self.offset == 0 and self.left_restitution == self.restitution
 
     @property
-    def left(self) -> LeftSide | None:
-        """Side θ < 0 in units of side 1, if it differs; None for a symmetric block."""
+    def left(self) -> Side | None:
+        """Side θ < 0 in units of side 1 if it differs, or the wall there; None for a symmetric block."""
+        if self.wall is not None:
+            return self.wall
         if self.has_equal_sides:
             return None
         angles, rates = self.critical_angles, self.frequency_parameters
@@ -434,6 +454,7 @@ class Block(Dimensions):
         period_s: float | None = None,
         phase: float = 0.0,
         braces: Braces | None = None,
+        wall: Wall | None = None,
         model: str | None = None,
         normalised_by: str | None = None,
     ) -> System:
@@ -452,6 +473,8 @@ class Block(Dimensions):
             Phase φ of the base acceleration a_x cos(ωt + φ), in radians, in [-1000, 1000]. Default: 0.
         braces : Braces, optional
             Braces with a normalised angle, such as `Braces(angle=block.angle(degrees=3))`. Default: no braces.
+        wall : Wall, optional
+            Wall on the side θ < 0, whose coefficient of restitution is that of all impacts. Default: that of the block, if any.
         model : {"slender", "full"}, optional
             Equation of motion: that of small angles, or the full one. Default: "full" under a ground motion or a pulse, "slender" on
             a harmonic base.
@@ -498,15 +521,19 @@ class Block(Dimensions):
         }
         if model is None:
             model = "slender" if base is None else "full"
-        if self.left is not None and braces is not None:
+        block = self if wall is None else evolve(self, wall=wall)
+        if block.left is not None and braces is not None:
+            what, remedy = (
+                ("with unequal sides", "or omit {offset}") if block.wall is None else ("against a wall", "")
+            )
             got = Text(f"braces at {braces.angle:g}")
-            raise WrongType("braces", "be omitted for a block with unequal sides", got, "or omit {offset}")
+            raise WrongType("braces", f"be omitted for a block {what}", got, remedy)
         angle = critical_angle_for(model, self.critical_angle, self.width)
         critical_angle_for(model, self.critical_angles[1], self.width)
-        check_model(self.law, model)
-        own = with_unit(self, normalisation_for(normalised_by, model, finite=base is not None))
+        check_model(block.law, model)
+        own = with_unit(block, normalisation_for(normalised_by, model, finite=base is not None))
         if base is None:
-            return own._made(own._harmonic(**harmonic, phase=phase), braces, angle, self.law.scatter)
+            return own._made(own._harmonic(**harmonic, phase=phase), braces, angle, block.law.scatter)
         values = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
         if values:
             raise WrongType(values[0], "be omitted with {base}")
@@ -514,7 +541,7 @@ class Block(Dimensions):
             warn_of_value(vertical_sentence([base.component]))
         scales = own.acceleration(1.0), self.frequency_parameter
         forcing = instance("base", base, BaseMotion).normalised(*scales)
-        scatter = self.law.scatter
+        scatter = block.law.scatter
         if scatter is not None and isinstance(base, GroundMotion):
             scatter = evolve(scatter, run=base.number)
         return own._made(forcing, braces, angle, scatter)
@@ -659,6 +686,7 @@ class Block(Dimensions):
         for name in ("offset", "centre_height", "radius_of_gyration"):
             given = self.offset or None if name == "offset" else getattr(self, f"_{name}")
             values += "" if given is None else f", {name}={given:.6g} m"
+        values += "" if self.wall is None else ", against a wall"
         return f"Block(height={self.height} m, width={self.width} m, {values})"
 
 
@@ -666,7 +694,8 @@ def symmetric_block(block: Any, name: str = "block") -> Block:
     """Return a block, after checking that it is symmetric; TypeError or ValueError, which names the argument, for anything else."""
     left = instance(name, block, Block).left
     remedy = "the formula holds for equal sides"
-    refuse_if(left is not None, name, "be symmetric", Text(f"one with {{offset}} {block.offset:g} m"), remedy)
+    got = "one against a wall" if isinstance(left, Wall) else f"one with {{offset}} {block.offset:g} m"
+    refuse_if(left is not None, name, "be symmetric", Text(got), remedy)
     return block
 
 
@@ -682,6 +711,7 @@ def block_attributes(block: Block) -> dict[str, Any]:
             "block_left_frequency_parameter_per_s": block.frequency_parameters[1],
         }
     )
+    wall = {} if block.wall is None else {"block_wall_restitution": block.wall.restitution}
     centre = {} if block.centre_height == block.height / 2 else {"block_centre_height_m": block.centre_height}
     return {
         **by,
@@ -692,4 +722,5 @@ def block_attributes(block: Block) -> dict[str, Any]:
         "block_frequency_parameter_per_s": block.frequency_parameter,
         **unsymmetric,
         **centre,
+        **wall,
     }

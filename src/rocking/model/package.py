@@ -123,6 +123,14 @@ SOURCES = """@article{yim-lin-1991,
   annote = {First motion of a block on a rough base.},
 }
 
+@article{sorrentino-2011,
+  author = {Sorrentino, Luigi and AlShawa, Omar and Decanini, Luis D.},
+  title = {The relevance of energy damping in unreinforced masonry mechanisms. {E}xperimental and analytical investigations},
+  journal = {Bulletin of Earthquake Engineering},
+  volume = {9}, number = {5}, pages = {1617--1642}, year = {2011},
+  annote = {Coefficient of restitution of a block against a wall.},
+}
+
 @article{newmark-1965,
   author = {Newmark, Nathan M.},
   title = {Effects of earthquakes on dams and embankments},

@@ -299,6 +299,14 @@ LEFT_RESTITUTION = Quantity(
     label=r"coefficient of restitution of the left side $e_{21}$",
     help="Coefficient of restitution of impacts that end the motion on the left side. Default: that of all impacts.",
 )
+WALL_RESTITUTION = Quantity(
+    "wall_restitution",
+    "e_w",
+    "coefficient of restitution of impacts against a wall",
+    (0.0, 1.0),
+    label=r"coefficient of restitution of the wall $e_\mathrm{w}$",
+    help="Coefficient of restitution of impacts against a wall on the side θ < 0. Default: no wall.",
+)
 FRICTION = Quantity(
     "friction",
     "μ",
@@ -339,10 +347,10 @@ RUN_QUANTITIES = {
     each.name: each
     for each in (
         *(SIZE, SLENDERNESS, RESTITUTION, ANGLE, POLARITY, LEVEL),
-        *(ANGLE_RATIO, FREQUENCY_RATIO, LEFT_RESTITUTION),
+        *(ANGLE_RATIO, FREQUENCY_RATIO, LEFT_RESTITUTION, WALL_RESTITUTION),
     )
 }
-"""Quantities of runs under ground motions, in the order of the dimensions; records come first. Only unsymmetric blocks have the last."""
+"""Quantities of runs under ground motions, in the order of the dimensions; records come first. The last are of blocks with a left side."""
 
 
 def _like(si: SI, name: str) -> SI:

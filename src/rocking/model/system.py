@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from attrs import evolve, field, frozen
+from attrs import astuple, evolve, field, frozen
 
 from rocking.model.block_formulas import NORMALISATIONS, Dimensions, with_unit
 from rocking.model.forcing import Forcing, Harmonic
@@ -16,6 +16,7 @@ from rocking.model.quantity import (
     BRACE_ANGLE,
     CRITICAL_ANGLE,
     FREQUENCY_RATIO,
+    LEFT_QUANTITIES,
     RESTITUTION,
     VELOCITY,
 )
@@ -149,8 +150,66 @@ class LeftSide:
     restitution: float = field(converter=_restitution)
 
 
-def _left(value: LeftSide | None) -> LeftSide | None:
-    return None if value is None else instance("left", value, LeftSide)
+@frozen
+class Wall:
+    """Wall on the side Θ < 0: the block turns to Θ > 0 only. An impact at Θ = 0 reverses the velocity: Θ' → −e_w Θ'.
+
+    Parameters
+    ----------
+    restitution : float
+        Coefficient of restitution e_w of an impact at Θ = 0, in [0, 1]. Measurements gave 0.3 to 0.5 (Sorrentino et al. 2011).
+
+    Raises
+    ------
+    TypeError
+        If the value is not a real number.
+    ValueError
+        If the value lies outside its range.
+
+    See Also
+    --------
+    Block : Takes a wall, with which surveys of ground motions follow it.
+    Block.system : Takes a wall for one motion.
+
+    Notes
+    -----
+    A block at rest lifts off where −A exceeds its level, and never to the other side. So the direction of the base motion matters.
+    After infinitely many impacts in a finite time, or after one with e_w = 0, the block rests against the wall. It lifts off again
+    as soon as the base acceleration allows. Impacts at Θ = 0 count as `impacts`. Friction at the wall is neglected.
+
+    References
+    ----------
+    Sorrentino, AlShawa & Decanini, Bull. Earthquake Eng. 9, 1617–1642 (2011).
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> block = rk.Block(height=2.0, width=0.6)
+    >>> ground = rk.example_ground_motion().scaled(pga=6.0)
+    >>> motion = rk.simulate(block.system(ground, wall=Wall(restitution=0.5)))
+    >>> bool((motion.at(motion.to_xarray(units="normalised").time.values)[0] >= 0).all())
+    True
+    """
+
+    restitution: float = field(converter=_restitution)
+
+    @property
+    def angle_ratio(self) -> float:
+        """Critical angle of the left side over that of the right one: infinite, so that the block never lifts off to it."""
+        return math.inf
+
+    @property
+    def frequency_ratio(self) -> float:
+        """Frequency parameter of the left side, which has no motion, over that of the right one: 1."""
+        return 1.0
+
+
+Side = LeftSide | Wall
+"""What is on the side Θ < 0 of a block whose sides differ."""
+
+
+def _left(value: Side | None) -> Side | None:
+    return value if value is None or isinstance(value, Wall) else instance("left", value, LeftSide)
 
 
 def _braces(value: Braces | None) -> Braces | None:
@@ -208,8 +267,9 @@ class System:
         Block in SI units of which the system is the normalised form, as `Block.system` sets it. Results are then in SI units by
         default. A system with another coefficient of restitution has the same block with this value; one with another
         `critical_angle`, or with other ratios of its `left` side, has no block. The block has no effect on equality. Default: none.
-    left : LeftSide, optional
-        Left side of an unsymmetric block. Default: none, a symmetric block. One that equals the right side counts as none.
+    left : LeftSide or Wall, optional
+        Left side of an unsymmetric block, or a wall there, whose coefficient of restitution is then that of the system. Default:
+        none, a symmetric block. One that equals the right side counts as none.
 
     Raises
     ------
@@ -232,7 +292,7 @@ class System:
     restitution_table: tuple[tuple[float, float], ...] = field(default=(), converter=_restitution_table)
     restitution_scatter: Scatter | None = field(default=None, converter=check_scatter, kw_only=True)
     block: Block | None = field(default=None, converter=_block, kw_only=True, eq=False, repr=False)
-    left: LeftSide | None = field(default=None, converter=_left, kw_only=True)
+    left: Side | None = field(default=None, converter=_left, kw_only=True)
 
     def __attrs_post_init__(self) -> None:
         """Refuse a table for the slender block, and braces that a full block reaches only when it lies flat."""
@@ -256,6 +316,9 @@ class System:
             object.__setattr__(self, "left", None)
         if self.left is None:
             return
+        if self.wall is not None:
+            self._check_wall(self.wall)
+            return
         allowed, got = "be omitted with braces", Text("both")
         refuse_if(self.braces is not None, "left", allowed, got, "braces are for a symmetric block")
         refuse_if(
@@ -269,11 +332,29 @@ class System:
             low, high = (each / self.critical_angle for each in CRITICAL_ANGLE.range)
             within("angle_ratio", self.left.angle_ratio, low, high)
 
+    def _check_wall(self, wall: Wall) -> None:
+        """Refuse what is not for a block against a wall: braces, and another restitution than that of the wall."""
+        for name, value in (
+            ("braces", self.braces),
+            ("restitution_table", self.restitution_table or None),
+            ("restitution_scatter", self.restitution_scatter),
+        ):
+            refuse_if(value is not None, name, "be omitted for a block against a wall", Text("both"))
+        allowed = f"be that of the wall, {wall.restitution:g}"
+        refuse_if(self.restitution != wall.restitution, "restitution", allowed, self.restitution)
+
+    @property
+    def wall(self) -> Wall | None:
+        """Wall against which the block stands."""
+        return self.left if isinstance(self.left, Wall) else None
+
     def _fitting(self, block: Block) -> Block | None:
         """Return the block with the restitution and the unit of acceleration of the system.
 
         None if its critical angles or the ratio of its frequencies are other ones.
         """
+        if self.wall != block.wall:
+            block = evolve(block, wall=self.wall)
         own, other = self.left, block.left
         ratios = [
             (1.0, 1.0) if each is None else (each.angle_ratio, each.frequency_ratio) for each in (own, other)
@@ -323,6 +404,7 @@ class System:
 
         Analyses in closed form, which exist for the slender block alone, take the forcing from here.
         """
+        check_no_wall(self)
         if self.critical_angle is not None:
             rule = "be None for this analysis, which has a closed form for the slender block alone"
             raise WrongType("critical_angle", rule, self.critical_angle)
@@ -343,6 +425,8 @@ class System:
         ratios = (1.0, 1.0 if self.left is None else self.left.angle_ratio)
         if self.critical_angle is None:
             return ratios
+        if self.wall is not None:
+            return math.tan(self.critical_angle) / self.critical_angle, math.inf
         right, left = (math.tan(ratio * self.critical_angle) / self.critical_angle for ratio in ratios)
         return right, left
 
@@ -360,7 +444,7 @@ class System:
 
 
 def quantities(system: System) -> dict[str, float]:
-    """Return the quantities of a system by name; the critical angle and those of braces and a left side only if it has them.
+    """Return the quantities of a system by name; the critical angle and those of braces and of the left side only if it has them.
 
     Examples
     --------
@@ -373,13 +457,16 @@ def quantities(system: System) -> dict[str, float]:
         rows["critical_angle"] = system.critical_angle
     if braces is not None:
         rows |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
-    if (left := system.left) is not None:
-        rows |= {
-            "angle_ratio": left.angle_ratio,
-            "frequency_ratio": left.frequency_ratio,
-            "left_restitution": left.restitution,
-        }
-    return rows
+    return rows | left_quantities(system.left)
+
+
+def left_quantities(left: Side | None) -> dict[str, float]:
+    """Return the quantities of a left side, or of a wall, by name; none of a symmetric block."""
+    if left is None:
+        return {}
+    if isinstance(left, Wall):
+        return {"wall_restitution": left.restitution}
+    return dict(zip(LEFT_QUANTITIES, astuple(left), strict=True))
 
 
 def system_of(values: Mapping[str, float]) -> System:
@@ -456,10 +543,18 @@ def angle_doubt(angle: float, remedy: str | None = None) -> str:
 
 def check_symmetric(system: System, what: str) -> None:
     """Raise ValueError for an unsymmetric block in an analysis, `what`, that needs the mirror symmetry of the equations."""
+    check_no_wall(system)
     allowed = f"be a symmetric block for {what}"
     refuse_if(
         system.left is not None, "system", allowed, Text("one with a {left} side of its own"), UNSYMMETRIC
     )
+
+
+def check_no_wall(system: System) -> None:
+    """Raise ValueError for a block against a wall in an analysis of recurrent motions."""
+    allowed = "have no wall for an analysis of recurrent motions"
+    remedy = "rk.simulate and surveys of ground motions and pulses take it"
+    refuse_if(system.wall is not None, "system", allowed, Text(str(system.wall)), remedy)
 
 
 UNSYMMETRIC = "rk.classify, rk.find_orbits and surveys need no symmetry"
@@ -519,6 +614,11 @@ def check_start(system: System, start: State | None) -> State:
     VELOCITY.checked(start.velocity)
     if system.braces is not None:
         check_between(start.angle, system.braces.angle)
+    if system.wall is not None:
+        inside = start.angle > 0.0 or (start.angle == 0.0 and start.velocity >= 0.0)
+        allowed = "start at an angle above 0, or at 0 with no velocity towards the wall"
+        got = Text(f"angle {start.angle:g}, velocity {start.velocity:g}")
+        refuse_if(not inside, "start", allowed, got)
     if system.critical_angle is not None:
         flat = 0.5 * math.pi / system.critical_angle
         allowed = f"lie within ±{flat:.6g}, where the block lies flat"
@@ -534,8 +634,9 @@ def check_periodic(system: System, start: State | None) -> State:
     TypeError
         If the base motion is not periodic, or as in `check_start`.
     ValueError
-        As in `check_start`, or for scatter of the restitution.
+        As in `check_start`, or for scatter of the restitution, or a wall.
     """
     instance("system", system, System).periodic  # noqa: B018 (it refuses)
     check_certain(system.restitution_scatter)
+    check_no_wall(system)
     return check_start(system, start)

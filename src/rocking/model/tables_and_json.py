@@ -36,7 +36,7 @@ FIXED = (
         "brace_restitution",
     ),
     *("phase", "angle", "velocity"),
-    *("angle_ratio", "frequency_ratio", "left_restitution"),
+    *("angle_ratio", "frequency_ratio", "left_restitution", "wall_restitution"),
 )
 """Quantities of a system in the order of the columns of a table."""
 RESULT = "result"
@@ -95,7 +95,8 @@ def quantity(name: Hashable, own: Quantities, description: str = "") -> Quantity
 
 def si_of(known: Quantity, name: Hashable, block: Any) -> SI | None:
     """Return the SI counterpart of a quantity; none of the margin of a block with unequal sides, in units of the side at that time."""
-    return None if name == "margin" and block is not None and block.left is not None else known.si
+    sides = block is not None and block.left is not None and block.wall is None
+    return None if name == "margin" and sides else known.si
 
 
 def in_si(data: xr.Dataset, block: Any, own: Quantities) -> xr.Dataset:

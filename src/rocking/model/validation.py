@@ -31,6 +31,7 @@ REMEDIES = {
     "Braces": "make one: rk.Braces(angle=1.0)",
     "Block": "make one: rk.Block(height=2.0, width=0.5)",
     "LeftSide": "make one: rk.LeftSide(angle_ratio=1.4, frequency_ratio=0.99, restitution=0.9)",
+    "Wall": "make one: rk.Wall(restitution=0.5)",
     "System": "make one: rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), or by rk.Block: "
     "block.system(rk.read_ground_motion(path))",
     "BaseMotion": "read a record by rk.read_ground_motion(path), or make an rk.GroundMotion or rk.Pulse",

@@ -59,7 +59,7 @@ def _block_of(system: System) -> numbers.Block:
 
 
 def _left_of(system: System) -> numbers.LeftSide | None:
-    """Return the left side of an unsymmetric block."""
+    """Return the left side of an unsymmetric block, or that of a wall."""
     if (left := system.left) is None:
         return None
     return numbers.LeftSide(left.angle_ratio, left.frequency_ratio, left.restitution)

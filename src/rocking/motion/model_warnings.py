@@ -68,8 +68,11 @@ def height_warnings(height: float) -> Iterator[str]:
 def impact_warnings(block: Block, restitution: float, left: float | None = None) -> Iterator[str]:
     """Yield a warning if the smallest coefficient of restitution in use is impossible for a block that turns about its edges.
 
-    Of a block with unequal sides, that of the impacts from each side is compared with its own Housner value.
+    Of a block with unequal sides, that of the impacts from each side is compared with its own Housner value. Against a wall any is
+    possible.
     """
+    if block.wall is not None:
+        return
     ends = restitution, restitution if left is None else left
     sides = [*zip(ends, block.housner_restitutions, (" after θ > 0", " after θ < 0"), strict=True)]
     if block.left is None:

@@ -56,7 +56,7 @@ def fallen(motion: Trajectory) -> float:
     critical_angle, left = motion.system.critical_angle, motion.system.left
     if critical_angle is not None:
         return 0.5 * math.pi / critical_angle
-    return FALLEN if left is None else FALLEN * max(left.angle_ratio, 1.0)
+    return FALLEN if left is None or motion.system.wall else FALLEN * max(left.angle_ratio, 1.0)
 
 
 def sample_step(motion: Trajectory) -> float:
@@ -101,7 +101,7 @@ def margin_speed(motion: Trajectory, block: Block) -> float:
 
     The unit of the margin is αθcr of the side on which the block is at that time.
     """
-    if block.left is None:
+    if block.left is None or motion.system.wall is not None:
         return float(block.radians_per_second(motion.margin))
     if math.isnan(motion.margin) or motion.record != "all":
         return math.nan
@@ -422,7 +422,9 @@ class Motion(Trajectory, Result):
         speed = math.nan if self.block is None else margin_speed(self, self.block)
         if not math.isnan(speed):
             return f"{math.degrees(speed):.4g}°/s"
-        return f"{self.margin:.4g}" + (" αθcr of its side" if self.system.left else "")
+        return f"{self.margin:.4g}" + (
+            " αθcr of its side" if self.system.left and not self.system.wall else ""
+        )
 
     def _time(self, time: float) -> str:
         """Return a time as text; in s if the block is known."""

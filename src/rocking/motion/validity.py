@@ -203,6 +203,8 @@ def validity(
     True
     """
     block = in_units_of(motion.system.block, instance("block", block, Block))
+    if motion.system.wall is not None:
+        block = evolve(block, wall=motion.system.wall)
     check_sides(motion.system, block)
     until = motion.duration if motion.overturning is None else motion.overturning.time
     moving, resting, leaning = split(motion, until)
@@ -365,7 +367,7 @@ def compared(motion: Trajectory) -> tuple[str, str]:
 
 def degrees_and_share(block: Block, angle: float) -> str:
     """Return an angle in degrees and in units of the critical angle, of an unsymmetric block that of θ > 0."""
-    side = "" if block.left is None else " of θ > 0"
+    side = "" if block.left is None or block.wall else " of θ > 0"
     return f"{block.degrees(angle):.4g}°, {angle:.4g} θcr{side}"
 
 
@@ -397,7 +399,12 @@ def impact_friction(motion: Trajectory, block: Block) -> Extreme:
 
 
 def impact_pushes(motion: Trajectory, block: Block) -> tuple[Array, Array]:
-    """Return the times of the impacts, and |J_x|/J_y = (1 − e)/(tan θcr + e tan θcr') of each, θcr before and θcr' after it."""
+    """Return the times of the impacts, and |J_x|/J_y = (1 − e)/(tan θcr + e tan θcr') of each, θcr before and θcr' after it.
+
+    There are none against a wall, which takes a part of J_x.
+    """
+    if motion.system.wall is not None:
+        return np.empty(0), np.empty(0)
     times, restitutions = impact_restitutions(motion)
     first, second = np.tan(block.critical_angles)
     before = np.where(after_left(motion), second, first)
@@ -452,6 +459,11 @@ def warnings(result: Validity, motion: Trajectory, block: Block, leaning: Arcs) 
     right, left = (float(np.min(used[each], initial=1.0)) for each in (~from_left, from_left))
     full, largest = motion.system.critical_angle is not None, motion.system.forcing.largest
     yield from block_warnings(block, largest, right, result.angle, left_restitution=left, full=full)
+    if motion.system.wall is not None:
+        yield (
+            "wall: its impacts are not assessed, because the base reactions depend on the height of the contact; at rest the base is "
+            "taken to bear the whole block"
+        )
     if motion.brace_hits:
         yield f"brace impacts: {motion.brace_hits}, not assessed, because the base reactions depend on the height of the brace"
     if leaning.starts.size:

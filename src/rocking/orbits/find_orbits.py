@@ -15,7 +15,7 @@ from attrs import evolve, field, frozen
 from rocking.kernels import batch
 from rocking.model.orbit import Orbit, Stability, orbit_columns
 from rocking.model.result import Result, along, described
-from rocking.model.system import State, System, quantities
+from rocking.model.system import State, System, check_no_wall, quantities
 from rocking.model.text import counted
 from rocking.model.validation import instance, pair, refuse_if, whole, within
 from rocking.orbits.event_chain import clocked
@@ -403,7 +403,7 @@ def find_orbits(
     >>> print(orbits[1])
     asymmetric orbit of period 1 with 0 impacts
     """
-    instance("system", system, System)
+    check_no_wall(instance("system", system, System))
     max_period = whole("max_period", max_period, 1, MAX_PERIOD)
     effort = within("effort", effort, 0.01, 1000.0)
     seed = whole("seed", seed, 0, 2**32 - 1)

@@ -27,7 +27,7 @@ from rocking.model.block import Block
 from rocking.model.files import replacing
 from rocking.model.result import in_units_of
 from rocking.model.system import System
-from rocking.model.validation import instance, within
+from rocking.model.validation import instance, refuse_if, within
 from rocking.model.verdict import Outcome
 from rocking.motion.motion import Motion, has_cycles, time_of_fall
 from rocking.plot import palette, style
@@ -69,6 +69,8 @@ class Scene:
             Rectangle((-left, -deep), left + right, deep, facecolor=style.TABLE),
             self.body,
         ]
+        if block.wall is not None:
+            self.parts.append(wall_of(block))
         if contact is not None:
             for side in (-contact - post, contact):
                 self.parts.append(Rectangle((side, 0), post, 1.04 * block.height, facecolor=style.BRACE))
@@ -76,7 +78,7 @@ class Scene:
         self.parts.append(Line2D([0], [-0.6 * deep], marker="v", color=style.IMPACT, markersize=8))
         self.centres = np.array([mass_centre(block, outline) for outline in self.outlines])
         self.centre = Line2D(*self.centres[:1].T, marker="o", color=style.MOTION, markersize=6)
-        if block.left is not None:
+        if block.left is not None and block.wall is None:
             self.parts.append(self.centre)
         for part in self.parts:
             ax.add_artist(part)
@@ -95,6 +97,22 @@ class Scene:
         self.body.set_xy(self.outlines[frame])
         self.centre.set_data(*self.centres[frame : frame + 1].T)
         return self.parts
+
+
+def wall_of(block: Block) -> Rectangle:
+    """Return the wall beside a block, hatched."""
+    thick = 0.06 * block.height
+    corner = -block.width / 2 - thick, 0.0
+    return Rectangle(
+        corner,
+        thick,
+        1.04 * block.height,
+        facecolor=style.TABLE,
+        edgecolor=style.INK,
+        hatch="////",
+        linewidth=style.THIN,
+        gid="wall",
+    )
 
 
 def _ground(ax: Axes, deep: float, far: float) -> None:
@@ -251,14 +269,19 @@ def schematic(ax: Axes | None = None, block: Block | None = None, *, lean: float
     height, width = block.height, block.width
     lean = within("lean", lean, -1.0, 1.0)
     angle = lean * block.critical_angles[lean < 0]
+    if block.wall is not None:
+        refuse_if(lean < 0.0, "lean", "be 0 or more for a block against a wall", lean)
     tilted = corners(height, width, angle)
     ax = style.own(ax, height=3.6)
     _base(ax, height, width)
+    if block.wall is not None:
+        ax.add_patch(wall_of(block))
     ax.add_patch(
         Polygon(tilted, facecolor=style.BLOCK, edgecolor=style.INK, linewidth=style.LINE, gid="block")
     )
     _sides(ax, tilted, height)
-    _centre(ax, tilted, mass_centre(block, tilted), height, both=block.left is not None)
+    both = block.left is not None and block.wall is None
+    _centre(ax, tilted, mass_centre(block, tilted), height, both=both)
     _angles(ax, tilted, height, block, angle)
     for corner, name in ((tilted[1], "$O$"), (tilted[0], "$O'$")):
         ax.plot(*corner, "o", color=style.INK, markersize=3.5)
@@ -326,12 +349,13 @@ def _angles(ax: Axes, tilted: NDArray, height: float, block: Block, angle: float
     )
     side = 90.0 - math.degrees(angle)
     right, left = map(math.degrees, block.critical_angles)
-    own = r"\theta_\mathrm{cr}" if block.left is None else r"\theta_{\mathrm{cr},1}"
+    both = block.left is not None and block.wall is None
+    own = r"\theta_\mathrm{cr}" if not both else r"\theta_{\mathrm{cr},1}"
     arcs = [
         (pivot, 0.72 * height, side, 90.0, r"$\theta$", SHAKEN),
         (pivot, 0.36 * height, side, side + right, f"${own}$", style.MOTION),
     ]
-    if block.left is not None:
+    if both:
         arcs.append((tilted[0], 0.36 * height, side - left, side, r"$\theta_{\mathrm{cr},2}$", style.MOTION))
     for pivot, radius, side, last, name, colour in arcs:
         ax.add_patch(

@@ -267,7 +267,7 @@ def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right:
     """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it."""
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
-        left = 1.0 if system.left is None else system.left.angle_ratio
+        left = 1.0 if system.left is None or system.wall else system.left.angle_ratio
         levels, colour, dashes, name = (left, 1.0), style.GUIDE, "dotted", "critical angle"
     else:
         levels, colour, dashes, name = (system.braces.angle,) * 2, style.BRACE, "dashed", "braces"

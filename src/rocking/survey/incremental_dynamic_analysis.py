@@ -13,6 +13,7 @@ from rocking.model.block import Block, block_attributes
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import IncrementalDynamicAnalysis
 from rocking.model.record_set import RecordSet, both_ways, record_set
+from rocking.model.system import left_quantities
 from rocking.survey.ending_measures import ending
 from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import (
@@ -20,7 +21,6 @@ from rocking.survey.spec import (
     check_one_block,
     checked_polarity,
     is_axis,
-    left_quantities,
     motion_spec,
 )
 

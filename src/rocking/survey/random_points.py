@@ -219,7 +219,7 @@ def _of_record(
         each = block.resized(float(height[number]), float(width[number]))
         kept, left = (min(max(e + deviation, 0.0), 1.0) for e in (each.restitution, each.left_restitution))
         row = [each.radius, each.critical_angle, kept]
-        if each.left is not None:
+        if each.left is not None and each.wall is None:
             row += [each.left.angle_ratio, each.left.frequency_ratio, left]
         rows.append(row)
     return np.array(rows)

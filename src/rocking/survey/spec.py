@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
-from attrs import astuple, evolve, field, fields, frozen
+from attrs import evolve, field, fields, frozen
 
 from rocking.kernels import system as numbers
 from rocking.model.block import INERTIA_RATIOS, RECTANGLE, Block
@@ -28,12 +28,12 @@ from rocking.model.restitution import Restitution, Scatter, check_model, check_u
 from rocking.model.system import (
     MODELS,
     NO_BRACES,
-    LeftSide,
     State,
     System,
     check_below_flat,
     check_between,
     check_periodic,
+    left_quantities,
     normalisation_for,
     quantities,
 )
@@ -397,6 +397,8 @@ def _within_a_turn(phases: np.ndarray) -> np.ndarray:
     return np.array([numbers.within_a_turn(phase) for phase in distinct.tolist()])[places]
 
 
+OPTIONAL = ("restitution", *LEFT_QUANTITIES, "wall_restitution")
+"""Quantities of runs that may be omitted."""
 SLENDERNESSES = 1e-4, 1.57
 """Range of the critical angle, rad."""
 
@@ -411,16 +413,13 @@ class Left(NamedTuple):
 
 
 def left_of(arguments: Values, restitution: np.ndarray) -> Left:
-    """Return the left sides at points; those of symmetric blocks without ratios."""
+    """Return the left sides at points; those of symmetric blocks without ratios, and of walls with infinite ones."""
+    if "wall_restitution" in arguments:
+        return Left(np.full(restitution.size, math.inf), np.ones(restitution.size), restitution, True)
     if "angle_ratio" not in arguments:
         return Left(np.ones(restitution.size), np.ones(restitution.size), restitution, False)
     angle, frequency, left_restitution = (arguments[name] for name in LEFT_QUANTITIES)
     return Left(angle, frequency, left_restitution, True)
-
-
-def left_quantities(left: LeftSide | None) -> dict[str, float]:
-    """Return the quantities of a left side by name; none of a symmetric block."""
-    return {} if left is None else dict(zip(LEFT_QUANTITIES, astuple(left), strict=True))
 
 
 class Runs(NamedTuple):
@@ -593,7 +592,7 @@ def motion_spec(
             if name == "polarity"
             else number_or_axis("levels" if name == "level" else name, arguments.get(name), span)
             for name, span in spans.items()
-            if arguments.get(name) is not None or name not in ("restitution", *LEFT_QUANTITIES)
+            if arguments.get(name) is not None or name not in OPTIONAL
         }
     except Refusal as error:
         if type(error) is not Refusal or (error.argument, model) != ("slenderness", "full"):
@@ -714,6 +713,9 @@ def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:
     }
     if "restitution" in checked:
         check_uniform(system.restitution_table, "an axis of an overturning spectrum")
+        refuse_if(
+            system.wall is not None, "restitution", "be omitted for a block against a wall", Text("an axis")
+        )
     fixed = {name: own[name] for name in own if name not in checked}
     table, scatter = system.restitution_table, system.restitution_scatter
     return PulseSpec(checked, fixed, kind=forcing.kind, table=table, scatter=scatter)

@@ -15,12 +15,12 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.restitution import Restitution
 from rocking.model.survey_results import OverturningSpectrum, RockingSpectrum
-from rocking.model.system import System
+from rocking.model.system import System, left_quantities
 from rocking.model.validation import Incomplete, Refusal, instance
 from rocking.survey.ending_measures import ending, pulse_ending
 from rocking.survey.incremental_dynamic_analysis import with_names
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import HOUSNER, MotionSpec, left_quantities, motion_spec, pulse_spec
+from rocking.survey.spec import HOUSNER, MotionSpec, motion_spec, pulse_spec
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,8 +58,8 @@ def rocking_spectrum(
     records : RecordSet, GroundMotion or iterable of GroundMotion
         Ground motions.
     block : Block, optional
-        Block of which some quantities vary; of an unsymmetric one only the size. Default: none; then give its size and its
-        slenderness.
+        Block of which some quantities vary; of an unsymmetric one, or against a wall, only the size. Default: none; then give its
+        size and its slenderness.
     levels : float or array (n,)
         Levels of the intensity measure to which each record is scaled. Default: 1, with the measure "scale" the record as it is.
     size : float or array (n,), optional
@@ -159,10 +159,11 @@ def quantities_of_block(block: Block) -> dict[str, Any]:
 
 
 def _check_shape(block: Block, **given: Any) -> None:
-    """Refuse quantities of the shape for an unsymmetric block, of which only the size may vary."""
+    """Refuse quantities of the shape for an unsymmetric block, or against a wall, of which only the size may vary."""
     for name, value in given.items():
         if block.left is not None and value is not None:
-            raise Refusal(name, "be omitted for an unsymmetric block, whose shape is that of {block}", value)
+            what = "an unsymmetric block" if block.wall is None else "a block against a wall"
+            raise Refusal(name, f"be omitted for {what}, whose shape is that of {{block}}", value)
 
 
 def described(data: xr.Dataset, spec: MotionSpec, records: RecordSet) -> xr.Dataset:

@@ -17,6 +17,7 @@ from rocking.kernels.contract import (
     acceleration_of,
     acceleration_size,
     forcing_term,
+    has_wall,
 )
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.system import Full, Slender, Unsymmetric
@@ -185,11 +186,13 @@ def settling_of_full(p, side, drive, speed):
     """Provide ``contract.settling`` for the full block.
 
     Near the base it is accelerated back with press + sigma A cos(alpha), within (1 + alpha |A|) u, and near a brace likewise. The
-    weaker acceleration of both sides, and the larger change, bound both.
+    weaker acceleration of both sides, and the larger change, bound both. Against a wall there is only the right side.
     """
     block, now, right, left = p.block, acceleration_of(p, drive), p.block.right, p.block.left
     e, swing, cosine = largest_up_to(p, speed), abs(now), max(right.cosine, left.cosine)
-    press = min(right.press + right.cosine * now, left.press - left.cosine * now)
+    press = right.press + right.cosine * now
+    if not has_wall(p):
+        press = min(press, left.press - left.cosine * now)
     if e >= 1.0 or press <= 0.0:
         return math.inf, math.inf
     window = LONGER * 2.0 * speed / (press * (1.0 - e))

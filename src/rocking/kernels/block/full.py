@@ -5,6 +5,8 @@ critical angle alpha s and the frequency parameter r, its ``ratio`` and ``rate``
 stays at a brace, as long as the slender system that it holds. Its arcs are Taylor series (``arc.full_series``).
 """
 
+import math
+
 from rocking.kernels import contract
 from rocking.kernels.arc.arc import Next
 from rocking.kernels.contract import acceleration_of
@@ -46,6 +48,12 @@ def is_symmetric(p):
     """Provide ``contract.is_symmetric``."""
     right, left = p.block.right, p.block.left
     return right.ratio == left.ratio and right.rate == left.rate and right.restitution == left.restitution
+
+
+@body(contract.has_wall, Full, inline=True)
+def has_wall(p):
+    """Provide ``contract.has_wall``: no base acceleration lifts the block to the left."""
+    return p.block.left_level == math.inf
 
 
 @body(contract.escape_speed, Full)

@@ -4,7 +4,13 @@ import math
 
 from rocking.kernels.block.chattering import base_settling_time, brace_settling_within
 from rocking.kernels.block.rest import side_to_lift
-from rocking.kernels.contract import arc_after, arc_renewed, restitution_at, stays_leaning
+from rocking.kernels.contract import (
+    arc_after,
+    arc_renewed,
+    has_wall,
+    restitution_at,
+    stays_leaning,
+)
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST
 from rocking.kernels.library.kernel import kernel
 
@@ -18,8 +24,14 @@ SLOW = 0.1
 
 
 @kernel(inline=True)
+def side_after_impact(p, side):
+    """Return the side of the arc after an impact that ends one on a side: the other one, or the same one at a wall."""
+    return side if has_wall(p) else -side
+
+
+@kernel(inline=True)
 def after_impact(p, arc, time, coming, horizon, peak):
-    """Return mode and arc after an impact at the base, eq. (2).
+    """Return mode and arc after an impact at the base, eq. (2), or at a wall, which reverses the velocity.
 
     ``horizon`` is the time in which nothing is recorded, so that chattering may be cut short. It is not cut if an
     angle may exceed ``peak``, the largest one so far: while the base moves on, a slower arc may be higher. If the
@@ -35,7 +47,7 @@ def after_impact(p, arc, time, coming, horizon, peak):
     speed = restitution * before
     if speed < NEGLIGIBLE and restitution < 1.0:
         speed = 0.0
-    side, mode = -arc.side, FLIGHT
+    side, mode = side_after_impact(p, arc.side), FLIGHT
     if speed == 0.0:
         side = side_to_lift(p, time, coming.drive)
         if side == 0 or time == arc.start:
@@ -85,7 +97,7 @@ def after_brace(p, arc, time, coming, horizon):
 @kernel(inline=True)
 def after_chattering(p, arc, time, coming):
     """Return mode and arc after an impact at the base whose chattering ends in rest."""
-    return REST, arc_renewed(p, -arc.side, time, 0.0, 0.0, coming)
+    return REST, arc_renewed(p, side_after_impact(p, arc.side), time, 0.0, 0.0, coming)
 
 
 @kernel(inline=True)

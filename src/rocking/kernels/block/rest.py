@@ -246,7 +246,7 @@ SHORT = 2.0**-20
 @kernel(inline=True)
 def is_at(level, value):
     """Return whether a value equals a level up to rounding."""
-    return abs(value - level) <= LEVEL_ERROR * level
+    return (1.0 - LEVEL_ERROR) * level <= value <= (1.0 + LEVEL_ERROR) * level
 
 
 @body(contract.holds_level, Slender, Cosine)

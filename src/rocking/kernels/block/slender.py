@@ -55,6 +55,12 @@ def always_symmetric(p):
     return True
 
 
+@body(contract.has_wall, Slender, inline=True)
+def no_wall(p):
+    """Provide ``contract.has_wall``."""
+    return False
+
+
 @body(contract.restitution_at, Slender, inline=True)
 def restitution_at(p, side, speed):
     """Provide ``contract.restitution_at``: a constant."""

@@ -2,7 +2,8 @@
 
 In ``Units`` of its own each side is a slender block: its base acceleration is smaller by the ratio, and its times are longer by
 the rate. So all arcs are those of slender blocks. ``half`` is the block of a side, and the bodies below change the units. The
-constants of an arc are in the units of its side; so is what ``contract`` says to be.
+constants of an arc are in the units of its side; so is what ``contract`` says to be. A block against a wall has no arcs on the left,
+whose ratio is infinite.
 """
 
 import math
@@ -231,6 +232,12 @@ def change_of_side(p, side, after):
 def never_symmetric(p):
     """Provide ``contract.is_symmetric``."""
     return False
+
+
+@body(contract.has_wall, Unsymmetric, inline=True)
+def has_wall(p):
+    """Provide ``contract.has_wall``: no base acceleration lifts the block to the left."""
+    return p.block.left.ratio == math.inf
 
 
 @body(contract.restitution_at, Unsymmetric, inline=True)

@@ -16,7 +16,7 @@ from typing import Annotated, NamedTuple
 import numpy as np
 
 from rocking.kernels.arc.arc import Arc, Next, shift_clock
-from rocking.kernels.block.impact import SLOW, SLOWEST, after_chattering, after_event
+from rocking.kernels.block.impact import SLOW, SLOWEST, after_chattering, after_event, side_after_impact
 from rocking.kernels.block.rest import rest_is_sure, start_is_sure
 from rocking.kernels.block.scatter import next_place
 from rocking.kernels.contract import (
@@ -217,7 +217,7 @@ def settles(p, arc, drive, speed, error, peak):
     ``error`` is that after the impact. No angle until then exceeds ``peak``. Rest erases the errors. Until then they grow beyond
     all speeds, without any effect on the outcome.
     """
-    side = -arc.side
+    side = side_after_impact(p, arc.side)
     fastest = speed + of_velocity(error) * units_of(p, side).speed
     if not fastest < SLOW:
         return False
@@ -281,7 +281,7 @@ def resolved(p, arc, coming, cut, peak, error):
     before = -coming.velocity
     time, speed = arc.start + coming.wait, restitution_at(p, arc.side, before)[0] * before
     if cut and coming.event == IMPACT and SLOWEST < speed < SLOW:
-        rebound = error_after_event(p, arc, coming, FLIGHT, -arc.side, error)
+        rebound = error_after_event(p, arc, coming, FLIGHT, side_after_impact(p, arc.side), error)
         if settles(p, arc, coming.drive, speed, rebound, peak):
             return after_chattering(p, arc, time, coming)
     return after_event(p, arc, time, coming, 0.0, math.inf)
@@ -401,7 +401,7 @@ def to_end_in_batch(p, angle, want_peak):
     return end
 
 
-# Left side of the block (``system.LeftSide``); zeros for equal sides.
+# Left side of the block (``system.LeftSide``); zeros for equal sides, and an infinite first ratio for a wall.
 LEFT_COLUMNS = ("angle_ratio", "f8"), ("frequency_ratio", "f8"), ("left_restitution", "f8")
 # Runs under the same samples: their scale, and the block and its angle at the start. The last three are those of a full block.
 RUN_ROW = np.dtype(

@@ -19,6 +19,7 @@ from rocking.kernels.contract import (
     at_impact,
     evaluate,
     guess_from,
+    has_wall,
     largest_on,
     next_event,
     no_return_time,
@@ -116,7 +117,7 @@ def begin(p, angle, velocity, waits, start=0.0):
         The march at its start.
         Whether a brace was hit there.
     """
-    side = 1 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1
+    side = 1 if angle > 0.0 or (angle == 0.0 and (velocity > 0.0 or has_wall(p))) else -1
     hit = abs(angle) == p.block.brace_angle and side * velocity > 0.0
     u, v = abs(angle), side * velocity
     if hit:

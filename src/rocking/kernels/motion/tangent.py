@@ -15,6 +15,7 @@ from rocking.kernels.contract import (
     acceleration,
     change_of_side,
     forcing_term,
+    has_wall,
     restitution_at,
     restoring_acceleration,
     sensitivities,
@@ -193,7 +194,7 @@ def event_map(p, arc, coming, mode_after, side_after):
     """Return the saltation matrix [[factor, 0], [shear, gain]] of an event.
 
     For an impact with the speed v before it, factor = e, gain = d(e v)/dv and shear = (Theta''+ - gain Theta''-)/Theta'-. At a
-    brace e is replaced by -r. Rest, sustained contact, lift-off and departure erase all perturbations: zeros.
+    brace e is replaced by -r, and at a wall by -e. Rest, sustained contact, lift-off and departure erase all perturbations: zeros.
 
     Returns
     -------
@@ -205,6 +206,8 @@ def event_map(p, arc, coming, mode_after, side_after):
     if coming.event == IMPACT:
         f, turned = forcing_term(p, arc.side, coming.drive), float(side_after * arc.side)
         e, gain = restitution_at(p, arc.side, -coming.velocity)
+        if has_wall(p):
+            return -e, shear_of(brace_gain(gain, f), coming.velocity), -gain
         restores, pushes = change_of_side(p, arc.side, side_after)
         gained = impact_gain(gain, restoring_acceleration(p, arc.side), f, turned, restores, pushes)
         return e, shear_of(gained, -coming.velocity), gain
