@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rocking.model.forcing import Harmonic
 from rocking.model.quantity import LEFT_QUANTITIES, SYSTEM_QUANTITIES
-from rocking.model.system import Braces, System, quantities
+from rocking.model.system import Braces, LeftSide, System, quantities
 from rocking.model.validation import Refusal, Text, WrongType, exactly_one, pair, reals, refuse_if, within
 from rocking.model.verdict import Kind
 
@@ -52,7 +52,7 @@ def with_value(system: System, parameter: str, value: float) -> System:
         return evolve(system, critical_angle=value)
     if parameter in LEFT_QUANTITIES:
         value_of(system, parameter)
-        assert system.left is not None
+        assert isinstance(system.left, LeftSide)
         return evolve(system, left=evolve(system.left, **{parameter.removeprefix("left_"): value}))
     refuse_if(system.left is not None, parameter, "be omitted for an unsymmetric block", value)
     braces = system.braces or Braces(angle=value)
