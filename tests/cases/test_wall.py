@@ -281,3 +281,11 @@ def test_what_does_not_go_with_a_wall_is_refused(make, sentence):
 
 PULSE = rk.Pulse("one-sine", amplitude=4.0, duration=0.5)
 AGAINST = rk.System(rk.PiecewiseLinear([0.0, 2.0, 0.0], step=0.5), 0.5, left=rk.Wall(0.5))
+
+
+def test_a_block_at_rest_needs_friction_only_where_it_is_pulled_away_from_the_wall():
+    for sign, needed in ((-1.0, 0.2), (1.0, 0.0)):
+        ground = rk.GroundMotion([0.0, sign * 0.2 * 9.80665, 0.0], step=0.3)
+        validity = rk.simulate(BLOCK.system(ground, wall=rk.Wall(0.5))).validity(BLOCK)
+        assert validity.friction == pytest.approx(needed, abs=1e-12)
+        assert any(sentence.startswith("wall: its impacts are not assessed") for sentence in validity.warnings)
