@@ -288,4 +288,6 @@ def test_a_block_at_rest_needs_friction_only_where_it_is_pulled_away_from_the_wa
         ground = rk.GroundMotion([0.0, sign * 0.2 * 9.80665, 0.0], step=0.3)
         validity = rk.simulate(BLOCK.system(ground, wall=rk.Wall(0.5))).validity(BLOCK)
         assert validity.friction == pytest.approx(needed, abs=1e-12)
-        assert any(sentence.startswith("wall: its impacts are not assessed") for sentence in validity.warnings)
+        assert any(
+            sentence.startswith("wall: its impacts are not assessed") for sentence in validity.warnings
+        )
