@@ -36,7 +36,7 @@ REASONS, _, HARMONIC, FINITE, BLOCKS = tables()
 SENTENCES = {row["Letter"]: row["The sentence begins with"] for row in REASONS}
 
 WAVE = rk.Harmonic(2.0, period=1.0)
-WALL = rk.Wall(0.9)
+WALL = rk.Wall(0.5)
 BRACES, LEFT = rk.Braces(0.5, 0.9), rk.LeftSide(1.3, 0.99, 0.87)
 KINDS = {
     "slender": {},
@@ -46,8 +46,8 @@ KINDS = {
     "full, table": {"critical_angle": 0.25, "restitution_table": [(1.0, 0.8)]},
     "slender, unsymmetric": {"left": LEFT},
     "full, unsymmetric": {"critical_angle": 0.25, "left": LEFT},
-    "slender, wall": {"left": WALL},
-    "full, wall": {"critical_angle": 0.25, "left": WALL},
+    "slender, wall": {"left": WALL, "restitution": 0.5},
+    "full, wall": {"critical_angle": 0.25, "left": WALL, "restitution": 0.5},
 }
 AMPLITUDES = np.array([1.5, 2.0, 2.5])
 FEW = {"samples": 10, "max_cycles": 200}

@@ -108,7 +108,7 @@ def test_citations_are_bibtex_with_balanced_braces():
     # a bibliography style prints a note, and does not print an annote
     assert " note = " not in text
     assert text.count(" annote = ") == text.count("\n@")
-    assert text.count("\n@article{") == 16
+    assert text.count("\n@article{") == 17
     assert "@misc" not in text  # each source has a title, and the place where it stands
     assert f"version = {{{rocking.__version__}}}" in text
     for source in (
