@@ -95,7 +95,7 @@ CALLS = {
     "`simulate`": lambda kind: rk.simulate(of(kind), cycles=20),
     "`classify`": lambda kind: rk.classify(of(kind)),
     "`lyapunov`": lambda kind: rk.lyapunov(of(kind), cycles=64),
-    "`spectral_density`": lambda kind: rk.spectral_density(rk.simulate(of(kind), cycles=600), transient=200),
+    "`spectral_density`": lambda kind: rk.spectral_density(rk.simulate(of(kind), cycles=1000), transient=200),
     "`impact_section`": lambda kind: rk.impact_section(of(kind), cycles=10),
     "`find_orbit`": lambda kind: rk.find_orbit(of(kind), orbit(kind).start, 1),
     "`find_orbits`": lambda kind: rk.find_orbits(of(kind), 1, effort=0.01),
