@@ -1,6 +1,7 @@
 """Margin of a motion under a base acceleration of finite length, and whether rounding may have decided."""
 
 import math
+from fractions import Fraction
 from itertools import pairwise
 
 import attrs
@@ -65,6 +66,42 @@ def test_margin_changes_its_sign_where_the_outcome_changes():
         assert motion.margin == pytest.approx(-amplitude * math.expm1(-1.0) - 1.0, abs=1e-14)
         assert (motion.margin > 0) == (motion.outcome == "overturned")
         assert motion.margin_time == 0.0
+
+
+@pytest.mark.parametrize(
+    ("model", "offset", "sign"),
+    [("slender", 0.0, 1), ("full", 0.0, -1), ("slender", 0.07, -1), ("full", 0.07, -1), ("full", 0.07, 1)],
+)
+def test_a_base_that_holds_the_acceleration_of_lift_off_is_undecided(model, offset, sign):
+    """A rectangular pulse above g b/h that lasts overturns the block; one below leaves it at rest."""
+    draws, close = np.random.default_rng(6), 0
+    for _ in range(30):
+        height, width = draws.uniform(1.0, 4.0), draws.uniform(0.4, 0.9)
+        block = rk.Block(height, width, 0.8, offset=offset)
+        lever = Fraction(width) + sign * 2 * Fraction(offset)
+        level = Fraction(9.80665) * lever / Fraction(height)
+        for relative in (0.0, 1e-16, 3e-16, 1e-14, 1e-12, 1e-6, 1e-3):
+            for above in (1.0 + relative, 1.0 - relative):
+                peak = float(level) * above
+                pulse = rk.Pulse(
+                    "rectangular", amplitude=sign * peak, duration=60.0 / block.frequency_parameter
+                )
+                motion = rk.simulate(block.system(pulse, model=model))
+                expected = "overturned" if Fraction(peak) > level else "at-rest"
+                assert motion.outcome == expected or not motion.certified
+                assert motion.certified or relative < 1e-9
+                close += not motion.certified
+    assert close >= 60
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_record_that_holds_the_acceleration_of_lift_off_is_undecided(sign):
+    for relative in (0.0, 2.0**-53, -(2.0**-53), 2.0**-52, -(2.0**-52), 2.0**-50, 1e-6, -1e-6):
+        level = 1.0 + relative
+        base = rk.PiecewiseLinear([0.0, 0.3, *[sign * level] * 100], step=0.6)
+        motion = rk.simulate(rk.System(base, restitution=0.8))
+        assert motion.outcome == ("overturned" if level > 1.0 else "at-rest") or not motion.certified
+        assert motion.certified == (abs(relative) == 1e-6)
 
 
 def test_a_block_that_never_moves_has_no_margin():

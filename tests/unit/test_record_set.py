@@ -253,7 +253,10 @@ def test_velocities_alone_are_no_records_and_refused_if_named(tmp_path):
 def test_record_without_its_line_of_the_unit_beside_others_has_the_table_as_way_out(folder):
     lines = write.peer(WAVE)
     saved(folder / "c.AT2", [*lines[:2], *lines[3:]])
-    with pytest.raises(rk.RecordError, match="units='g'; a table with a column 'units' gives it for each"):
+    with pytest.raises(
+        rk.RecordError,
+        match="units='g' for all files that do not state it; a table with a column 'units' gives",
+    ):
         rk.read_record_set(folder)
 
 
@@ -276,15 +279,20 @@ def test_file_without_a_unit_beside_others_is_named_with_argument_and_table(fold
     with pytest.raises(rk.RecordError) as caught:
         rk.read_record_set(folder)
     assert str(caught.value).startswith(
-        "c.txt: the file does not state the unit of its samples; give it, for example units='m/s²'; "
-        "a table with a column 'units' gives it for each file; if it is no record"
+        "c.txt: the file does not state the unit of its samples; give it, for example units='m/s²' for all files that do not "
+        "state it; a table with a column 'units' gives it for each file; if it is no record"
     )
-    with pytest.raises(rk.RecordError) as caught:
-        rk.read_record_set(sorted(folder.glob("?.*")), units="g", step=0.01)
-    assert str(caught.value) == (
-        "a.V1, channel 1: the file states the unit of its samples, g; do not give units; "
-        "a table with a column 'units' gives it for each file"
-    )
+
+
+def test_unit_and_step_of_several_files_are_those_of_the_files_that_state_none(folder):
+    saved(folder / "c.txt", [f"{value}" for value in WAVE])
+    files = sorted(folder.glob("?.*"))
+    alone = [motion for path in files[:-1] for motion in rk.read_ground_motions(path)]
+    alone.append(rk.read_ground_motion(files[-1], units="cm/s²", step=0.02))
+    together = rk.read_record_set(files, units="cm/s²", step=0.02)
+    assert [each.step for each in together] == [each.step for each in alone]
+    for one, other in zip(together, alone, strict=True):
+        np.testing.assert_array_equal(one.acceleration, other.acceleration)
 
 
 TABLES = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 TITLE = "Assessment of a free-standing block under ground motions"
 MAX_FRICTION = 10.0
+LARGE_FACTOR = 10
+"""Factor of a record from which the page names it."""
 SA_PERIODS, SA_DAMPING = (0.01, 10.0), 0.05
 SURVEYS, ROWS_PER_SURVEY = 3, 0.2
 """Surveys of an assessment, and the cost of one per record, in that of a row."""
@@ -94,6 +96,11 @@ class Assessment(Result):
     notes : tuple of str
         Sentences on what a reader must know.
 
+    Notes
+    -----
+    `to_dict` holds the name, the attributes and the rows of the records. It also holds `fragility`, `overturning_set`, `sensitivity`,
+    `rate` and `notes`.
+
     Examples
     --------
     >>> import rocking as rk
@@ -113,25 +120,8 @@ class Assessment(Result):
     name: str = ""
     notes: tuple[str, ...] = ()
 
-    def to_dict(self, *, units: str | None = None, block: Any = None) -> dict[str, Any]:
-        """Return the rows of the records, and the other results, as values that JSON has.
-
-        Parameters
-        ----------
-        units, block
-            As in `to_xarray`.
-
-        Returns
-        -------
-        dict
-            The name, the attributes and the rows of the records, `fragility`, `overturning_set`, `sensitivity` and `rate` (None
-            without a hazard), and `notes`.
-
-        Raises
-        ------
-        TypeError, ValueError
-            As in `to_xarray`.
-        """
+    def to_dict(self, *, units: str | None = None, block: Any = None) -> dict[str, Any]:  # noqa: D102
+        # The docstring is that of `Result.to_dict`.
         parts: dict[str, Result | None] = {
             "fragility": self.fragility,
             "overturning_set": self.overturning_set,
@@ -295,7 +285,10 @@ def assess(
     of_block = block_warnings(
         block, (), block.restitution, left_restitution=block.left_restitution, full=model == "full"
     )
-    notes = [*few_records(len(chosen)), *of_block]
+    scaled = scaling_note(
+        chosen.names, _factors(chosen, intensity, float(grid.max() if level is None else level), block)
+    )
+    notes = [*few_records(len(chosen)), *scaled, *of_block]
     part = ROWS_PER_SURVEY * len(chosen)
     with Bar(SURVEYS * part + len(chosen), "assessing", shown=progress) as bar:
         curves = fragility(chosen, block, grid, limits=limits, seed=seed, **how, **(uncertain or {}))
@@ -372,10 +365,33 @@ def _scaled(
     """Return the records as they are, or scaled to a level as the survey scales them."""
     if level is None:
         return list(records)
-    measure, values = intensity_of(bands.dataset.attrs["intensity"], records)
-    alpha, slenderness = block.frequency_parameter, block.critical_angle
-    factors = [measure.factor(level, float(value), alpha, slenderness) for value in values]
+    factors = _factors(records, bands.dataset.attrs["intensity"], level, block)
     return [motion.scaled(factor) for motion, factor in zip(records, factors, strict=True)]
+
+
+def _factors(records: RecordSet, intensity: Any, level: float, block: Block) -> list[float]:
+    """Return the factors that scale the records to a level."""
+    measure, values = intensity_of(intensity, records)
+    alpha, slenderness = block.frequency_parameter, block.critical_angle
+    return [measure.factor(level, float(value), alpha, slenderness) for value in values]
+
+
+def scaling_note(names: Sequence[str], factors: Sequence[float]) -> Iterator[str]:
+    """Yield a sentence on records that are scaled by large factors, if there are some.
+
+    Examples
+    --------
+    >>> print(*scaling_note(["a.AT2", "b.AT2"], [2.0, 30.0]))
+    1 of 2 records is scaled by more than 10 (b.AT2 by 30): so strong a motion need not look like a weak one that is scaled
+    """
+    large = [factor for factor in factors if factor > LARGE_FACTOR]
+    if large:
+        name = names[factors.index(max(large))]
+        verb = "is" if len(large) == 1 else "are"
+        yield (
+            f"{len(large)} of {counted(len(factors), 'record')} {verb} scaled by more than {LARGE_FACTOR} ({name} by {max(large):.4g}): "
+            "so strong a motion need not look like a weak one that is scaled"
+        )
 
 
 def _row(

@@ -81,21 +81,20 @@ def write_page(
 def page(assessments: Sequence[Assessment], title: str, by: str, notes: Sequence[str] = ()) -> str:
     """Return the page as text."""
     first = assessments[0]
-    limits = dict.fromkeys([*notes, *(note for each in assessments for note in each.notes)])
     body = [f"<h1>{escape(title)}</h1>"]
     if by:
         body.append(f'<p class="by">{escape(by)}</p>')
     body.append(answers(assessments))
+    limits = dict.fromkeys([*notes, *(note for each in assessments for note in each.notes)])
+    if limits:
+        items = "".join(f"<li>{escape(limit)}</li>" for limit in limits)
+        body.append(f'<div class="limits"><p>Limits of these results:</p><ul>{items}</ul></div>')
     for number, each in enumerate(assessments, 1):
         body += of_block(each, name_of(each, number, len(assessments)))
     body += ["<h2>Records</h2>", table(record_files(first))]
-    limits = dict.fromkeys([*notes, *(note for each in assessments for note in each.notes)])
-    body += ["<h2>Methods and limits</h2>", '<div class="methods">', *map(paragraph, methods(first))]
+    body += ["<h2>Methods</h2>", '<div class="methods">', *map(paragraph, methods(first))]
     for number, each in enumerate(assessments, 1):
         body.append(paragraph(of_the_block(each, name_of(each, number, len(assessments)))))
-    if limits:
-        items = "".join(f"<li>{escape(limit)}</li>" for limit in limits)
-        body.append(f"<p>Limits of these results:</p><ul>{items}</ul>")
     body.append("</div>")
     template = files("rocking.assessment").joinpath("page.html").read_text(encoding="utf-8")
     foot = re.sub(r'[\\"<>\n]', " ", " · ".join(filter(None, (title, by, f"rocking {VERSION}"))))

@@ -277,7 +277,8 @@ def band_table(each: Assessment) -> Shown:
                 percent(float(bands.share[place])),
             )
         )
-    spacing = f"Intervals and gaps narrower than {number(bands.spacing)}{unit_of(each)} may be missed; {NO_SLIDING}."
+    narrower = f"Intervals and gaps narrower than {number(bands.spacing)}{unit_of(each)}"
+    spacing = f"{narrower} may be missed, and more levels find more of them; {NO_SLIDING}."
     heads = ("record", symbol_of(each, "overturning intervals,"), "lowest found", "share of the range")
     return Shown(heads, rows, 2, spacing)
 

@@ -104,11 +104,21 @@ MOTION_CSV = output(
 UNSCATTERED = LAW[:2]
 """Options of the law of restitution of an analysis of recurrent motions, which takes no scatter."""
 BLOCK = (*quantities("height", "width", "restitution", *STANDING), *LAW)
+ALL_RECORDS = (POLARITY, MODEL, NORMALISED_BY, *READING, COMPONENT)
+"""Options of the motions under every record of a set."""
+RECORDS_AND_LEVELS = (SOURCES, *BLOCK, *quantities("angle"), *levels(), INERTIA_RATIO, *ALL_RECORDS)
+"""Options of the motions of one block under every record at every level."""
 RANDOM_SEED = number("seed", "Random seed. Default: 0.")
 SURVEY_COUNTS = (
     number("max_cycles", "Maximum number of forcing cycles. Default: 10,000."),
     number("max_period", "Longest response period sought, in forcing cycles. Default: 64."),
 )
+
+
+def of_survey(picture: str, rows: str) -> tuple[click.Parameter, ...]:
+    """Return the options of the output of a survey: its store, a plot, a table, and the result in two formats."""
+    return STORE, REPAIR, plot(picture), csv(rows), SURVEY_NETCDF, JSON
+
 
 COMMANDS = (
     Command(
@@ -265,20 +275,9 @@ rocking slide example --friction 0.3 --pga-g 0.5 --plot slip.png
             *LAW,
             INERTIA_RATIO,
             *scaling(VALUES, "each record is", "Factor of the records. Default: 1."),
-            POLARITY,
-            MODEL,
-            NORMALISED_BY,
-            *READING,
-            COMPONENT,
+            *ALL_RECORDS,
         ),
-        outputs=(
-            STORE,
-            REPAIR,
-            plot("Plot the largest angle over the size"),
-            csv("Write one row per run"),
-            SURVEY_NETCDF,
-            JSON,
-        ),
+        outputs=of_survey("Plot the largest angle over the size", "Write one row per run"),
         details=AXIS_TEXT,
         progress=True,
         examples="""
@@ -447,13 +446,9 @@ rocking map --height 2 --width 0.5 --acceleration 1:8:50 \\
                 "runs.",
             ),
         ),
-        outputs=(
-            STORE,
-            REPAIR,
-            plot("Plot the basins, one colour per attractor, with their area fractions"),
-            csv("Write one row per initial state"),
-            SURVEY_NETCDF,
-            JSON,
+        outputs=of_survey(
+            "Plot the basins, one colour per attractor, with their area fractions",
+            "Write one row per initial state",
         ),
         details="The initial states form a grid over --angle and --velocity. The uncertainty exponents of the boundaries between the "
         f"basins are also estimated. {AXIS_TEXT}",
@@ -496,13 +491,9 @@ rocking basins --amplitude 5.5 --period 1 --restitution 0.8 \\
             MODEL,
             *SURVEY_COUNTS,
         ),
-        outputs=(
-            STORE,
-            REPAIR,
-            plot("Plot the safe fraction over the amplitude, with its intervals and the thresholds"),
-            csv("Write one row per amplitude"),
-            SURVEY_NETCDF,
-            JSON,
+        outputs=of_survey(
+            "Plot the safe fraction over the amplitude, with its intervals and the thresholds",
+            "Write one row per amplitude",
         ),
         details="It is the fraction of the initial states that do not overturn, at each amplitude, with its 95 % confidence interval. "
         f"Give the amplitude as an {AN_AXIS}",
@@ -557,13 +548,9 @@ rocking safe-basin --height 2 --width 0.5 --acceleration 2:10:20 \\
             number("max_cycles", "Maximum number of forcing cycles per run. Default: 1,000."),
             SURVEY_COUNTS[1],
         ),
-        outputs=(
-            STORE,
-            REPAIR,
-            plot("Plot the lowest amplitude and the fraction of phases that overturn"),
-            csv("Write one row per forcing period, frequency or restitution"),
-            SURVEY_NETCDF,
-            JSON,
+        outputs=of_survey(
+            "Plot the lowest amplitude and the fraction of phases that overturn",
+            "Write one row per forcing period, frequency or restitution",
         ),
         details="The block is initially at rest. The minimum is taken over the initial phases of the forcing. "
         + AXIS_TEXT,
@@ -587,26 +574,8 @@ rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10 \\
         function="rocking.survey.overturning_set.overturning_set",
         inputs="record_requests.overturning_set",
         report="reports_records.OVERTURNING_SET",
-        options=(
-            SOURCES,
-            *BLOCK,
-            *quantities("angle"),
-            *levels(),
-            INERTIA_RATIO,
-            POLARITY,
-            MODEL,
-            NORMALISED_BY,
-            *READING,
-            COMPONENT,
-        ),
-        outputs=(
-            STORE,
-            REPAIR,
-            plot("Plot the intervals of overturning levels, a row per record"),
-            csv("Write the switches"),
-            SURVEY_NETCDF,
-            JSON,
-        ),
+        options=RECORDS_AND_LEVELS,
+        outputs=of_survey("Plot the intervals of overturning levels, a row per record", "Write the switches"),
         details="Overturning is not monotone: a stronger motion can spare a block that a weaker one overturns. Every interval wider "
         f"than the distance of two levels is found. {LEVELS_TEXT}",
         examples="""
@@ -621,25 +590,10 @@ rocking overturning-set example --height 2 --width 0.5 --pga-g 0.1:2:400 \\
         function="rocking.survey.incremental_dynamic_analysis.incremental_dynamic_analysis",
         inputs="record_requests.incremental_dynamic_analysis",
         report="reports_records.IDA",
-        options=(
-            SOURCES,
-            *BLOCK,
-            *quantities("angle"),
-            *levels(),
-            INERTIA_RATIO,
-            POLARITY,
-            MODEL,
-            NORMALISED_BY,
-            *READING,
-            COMPONENT,
-        ),
-        outputs=(
-            STORE,
-            REPAIR,
-            plot("Plot the level over the largest angle of each record, with fractiles"),
-            csv("Write one row per run"),
-            SURVEY_NETCDF,
-            JSON,
+        options=RECORDS_AND_LEVELS,
+        outputs=of_survey(
+            "Plot the level over the largest angle of each record, with fractiles",
+            "Write one row per run",
         ),
         details="Incremental dynamic analysis: each record is scaled to each level. The report has fractiles of the largest angle over "
         f"the records. {LEVELS_TEXT}",
@@ -679,13 +633,9 @@ rocking ida example --height 2 --width 0.5 --pga-g 0.1:1.5:30 \\
             MODEL,
             NORMALISED_BY,
         ),
-        outputs=(
-            STORE,
-            REPAIR,
-            plot("Plot the outcomes, with the mode of overturning in colour"),
-            csv("Write one row per run"),
-            SURVEY_NETCDF,
-            JSON,
+        outputs=of_survey(
+            "Plot the outcomes, with the mode of overturning in colour",
+            "Write one row per run",
         ),
         details="The block is initially at rest. The mode of overturning is the number of impacts since the block last rested. "
         + AXIS_TEXT,
@@ -730,19 +680,11 @@ rocking overturning-spectrum --pulse ricker --height 2 --width 0.5 \\
                 "FILE",
                 "Hazard of the site: a CSV file of levels and annual rates of exceedance. Adds the annual rate.",
             ),
-            POLARITY,
-            MODEL,
-            NORMALISED_BY,
-            *READING,
-            COMPONENT,
+            *ALL_RECORDS,
         ),
-        outputs=(
-            STORE,
-            REPAIR,
-            plot("Plot the probabilities with intervals and lognormal fits"),
-            csv("Write the probabilities and their intervals as a table"),
-            SURVEY_NETCDF,
-            JSON,
+        outputs=of_survey(
+            "Plot the probabilities with intervals and lognormal fits",
+            "Write the probabilities and their intervals as a table",
         ),
         details="""\
 A curve is the probability of overturning, or of exceeding a limit of the angle, over the intensity of the ground motion.
@@ -780,11 +722,7 @@ rocking fragility records --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
             *levels(),
             INERTIA_RATIO,
             number("seed", "Random seed of the bootstrap. Default: 0."),
-            POLARITY,
-            MODEL,
-            NORMALISED_BY,
-            *READING,
-            COMPONENT,
+            *ALL_RECORDS,
         ),
         outputs=(STORE, REPAIR, csv("Write one row per change"), SURVEY_NETCDF, JSON),
         details="A verdict is whether the block overturns. Every run is repeated with five changes: the amplitude ± 1 %, sampling half "

@@ -144,12 +144,12 @@ def next_event(p, mode, arc, guess):
 
 
 @contract
-def lift_off(p, arc, left_level):
-    """Find the lift-off of a slender block that rests, to the right where -a > 1, to the left where a > ``left_level``."""
+def lift_off(p, arc, right_level, left_level):
+    """Find the lift-off of a slender block that rests: to the right where -a > ``right_level``, to the left where a > ``left_level``."""
 
 
 @contract
-def side_above(p, start, drive, left_level):
+def side_above(p, start, drive, right_level, left_level):
     """Return the side to which a slender block at rest lifts now, with the levels of ``lift_off``; 0 if it stays."""
 
 
@@ -164,8 +164,8 @@ def no_return_time(p, arc):
 
 
 @contract
-def side_to_lift(p, start, drive):
-    """Return the side to which a block at rest lifts now, where f > 0; 0 if it stays."""
+def resting(p):
+    """Return the slender system that rests as long as this one, and its level of lift-off to the left; that to the right is 1."""
 
 
 @contract

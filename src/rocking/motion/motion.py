@@ -17,13 +17,11 @@ from rocking.model.system import quantities
 from rocking.model.text import counted
 from rocking.model.validation import instance, refuse_if, within
 from rocking.model.verdict import Overturning
-from rocking.motion.trajectory import Trajectory
+from rocking.motion.trajectory import Trajectory, side_at
 from rocking.motion.validity import Validity, compared, validity
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from rocking.motion.trajectory import Trajectory
 
 
 STEPS = 100
@@ -107,7 +105,7 @@ def margin_speed(motion: Trajectory, block: Block) -> float:
         return float(block.radians_per_second(motion.margin))
     if math.isnan(motion.margin) or motion.record != "all":
         return math.nan
-    side = 0 if motion._side_at(motion.margin_time) > 0 else 1
+    side = 0 if side_at(motion, motion.margin_time) > 0 else 1
     return motion.margin * block.critical_angles[side] * block.frequency_parameters[side]
 
 
@@ -272,9 +270,10 @@ class Motion(Trajectory, Result):
         Time τ of that lift-off or impact.
     certified : bool
         False if the outcome is undecided in double precision: the accumulated rounding error exceeds |K₊| somewhere, or the
-        clearance of a minimum of |Θ| between two impacts, or a lower bound of it. Of a block with a critical angle the error must
+        clearance of a minimum of |Θ| between two impacts, or a lower bound of it, or the base acceleration equals that of lift-off
+        up to rounding. Of a block with a critical angle the error must
         be small at the end of each arc, instead of |K₊| at its start. The error is an estimate from the rounding of each arc and
-        its growth. True for a harmonic base motion, and between braces, which prevent overturning.
+        its growth. True for a harmonic base motion. Between braces, which prevent overturning, only lift-off counts.
     final : State
         Θ and Θ' at the end, just after an event if there is one.
     duration : float

@@ -210,13 +210,6 @@ class Trajectory(ReadOnlyArrays):
             phase = self.system.periodic.phase
         return section_of(self.system, self.start, self.cycles, PHASE.checked(phase))
 
-    def _side_at(self, event: float) -> int:
-        """Return the side of the arc that begins with the event at a time: 1 or −1; ValueError if no events were recorded."""
-        rows = self._rows()
-        rows = rows[rows["mode"] == kernel.FLIGHT]
-        begins = absolute(rows, self._cycle_length, self.duration)
-        return int(rows["side"][np.argmin(np.abs(begins - event))])
-
     @cached_property
     def _numbers(self) -> Any:
         return parameters(self.system, self._cycle_length)
@@ -250,3 +243,11 @@ class Trajectory(ReadOnlyArrays):
             allowed = f"lie in the run, [0, {self.duration:.6g}], or little later, while the angle is within the range of floats"
             raise Refusal("times", allowed, first)
         return out.reshape(*times.shape, 3) + 0.0
+
+
+def side_at(motion: Trajectory, event: float) -> int:
+    """Return the side of the arc that begins with the event at a time: 1 or −1; ValueError if no events were recorded."""
+    rows = motion._rows()
+    rows = rows[rows["mode"] == kernel.FLIGHT]
+    begins = absolute(rows, motion._cycle_length, motion.duration)
+    return int(rows["side"][np.argmin(np.abs(begins - event))])

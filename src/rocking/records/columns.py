@@ -6,7 +6,15 @@ import re
 from typing import NamedTuple
 
 from rocking.model.text import counted, formatted
-from rocking.records.text_file import MAX_SAMPLES, NUMBER, Channel, TextFile
+from rocking.records.text_file import (
+    MAX_SAMPLES,
+    NUMBER,
+    ROW,
+    Channel,
+    TextFile,
+    in_plain_numbers,
+    mixes_commas,
+)
 from rocking.records.times import printed_times
 from rocking.records.units import (
     IN_BRACKETS,
@@ -20,7 +28,6 @@ from rocking.records.units import (
     titles,
     unit_of,
 )
-from rocking.records.written_numbers import ROW, in_plain_numbers, mixes_commas
 
 COMMENT = re.compile(r"\s*(?:[#%!]|//|$)")
 WORD = re.compile(r"[^\W_]+")

@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from rocking.records.text_file import NUMBER, Channel, TextFile
+from rocking.records.text_file import NUMBER, ROW, Channel, TextFile, in_plain_numbers
 from rocking.records.units import header_units
-from rocking.records.written_numbers import ROW, in_plain_numbers
 
 NAMED = re.compile(r"\bNPTS\s*=\s*([^,;\s]+)[\s,;]*DT\s*=\s*([^,;\s]+)", re.IGNORECASE)
 HEADER_LINES = 100

@@ -173,7 +173,8 @@ def read_record_set(
           `scale` (a factor), `units`, `step` and `name` are optional. Each other column holds numbers, such as magnitudes, and
           becomes one of `RecordSet.columns`. An empty cell there is NaN.
     units, step, baseline
-        As for `read_ground_motion`, for all files. In a table, a cell takes precedence.
+        As for `read_ground_motion`. Of several files, those that state the unit or the step keep their own. In a table, a cell
+        takes precedence.
     component : {"all", "first", "larger"}
         Horizontal components of each station: all of them, or one by a rule, as `RecordSet.one_per_station`. Default: "all".
 
@@ -275,18 +276,31 @@ def _of_files(paths: Sequence[Path], values: dict[str, Any], remedy: str = "") -
     result = []
     for path in paths:
         try:
-            motions = read_ground_motions(path, **values)
+            motions = _of_file(path, values) if len(paths) > 1 else read_ground_motions(path, **values)
         except RecordError as error:
             raise RecordError(f"{error}{_of_several(error) if len(paths) > 1 else ''}{remedy}") from error
         result += _members(motions, path.name if names[path.name] == 1 else path.as_posix())
     return result
 
 
+def _of_file(path: Path, values: dict[str, Any]) -> tuple[GroundMotion, ...]:
+    """Return the motions of one of several files; it keeps the unit and the step that it states itself."""
+    try:
+        return read_ground_motions(path, **values)
+    except RecordError as error:
+        stated = re.search(r"do not give (units|step)$", str(error))
+        if stated is None:
+            raise
+        return _of_file(path, values | {stated[1]: None})
+
+
 def _of_several(error: RecordError) -> str:
-    """Return the remedy for an argument that suits some files and not others; empty for another error."""
+    """Return the remedy for a unit or a step that a file lacks; empty for another error."""
     for name in ("units", "step"):
-        if re.search(rf"(do not give {name}|for example {name}=\S+)$", str(error)):
-            return f"; a table with a column {name!r} gives it for each file"
+        if re.search(rf"for example {name}=\S+$", str(error)):
+            return (
+                f" for all files that do not state it; a table with a column {name!r} gives it for each file"
+            )
     return ""
 
 

@@ -144,10 +144,8 @@ def free_quarter_period(angle: Any) -> Any:
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `free_impact_speed`.
 
     See Also
     --------
@@ -183,10 +181,8 @@ def free_peaks(angle: Any, restitution: Any, impacts: Any) -> Any:
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `free_impact_speed`.
 
     See Also
     --------

@@ -85,10 +85,8 @@ def saddle_orbit(phase: Any, amplitude: Any, period: Any, orbit: str = "upper") 
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `heteroclinic_amplitude`.
 
     See Also
     --------
@@ -121,10 +119,8 @@ def unstable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `heteroclinic_amplitude`.
 
     See Also
     --------
@@ -157,10 +153,8 @@ def stable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `heteroclinic_amplitude`.
 
     See Also
     --------
@@ -196,10 +190,8 @@ def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> A
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `heteroclinic_amplitude`.
 
     See Also
     --------
@@ -255,10 +247,8 @@ def damping(angle: Any, velocity: Any, restitution: Any, width: float) -> Any:
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `heteroclinic_amplitude`.
 
     See Also
     --------
@@ -295,10 +285,8 @@ def impact_loss(velocity: Any, restitution: Any) -> Any:
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `heteroclinic_amplitude`.
 
     See Also
     --------
@@ -332,10 +320,8 @@ def melnikov_function(time: Any, amplitude: Any, period: Any, restitution: Any, 
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `heteroclinic_amplitude`.
 
     See Also
     --------
@@ -456,10 +442,8 @@ def melnikov_amplitude(period: Any, restitution: Any) -> Any:
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `heteroclinic_amplitude`.
 
     See Also
     --------

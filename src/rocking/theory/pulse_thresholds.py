@@ -28,7 +28,7 @@ def rectangular_pulse_amplitude(duration: Any) -> Any:
     Returns
     -------
     float or ndarray
-        A in units of g θcr, in the shape of `duration`. It does not depend on the coefficient of restitution.
+        A in units of g θcr, in the shape of `duration`, for any coefficient of restitution.
 
     Raises
     ------
@@ -65,14 +65,12 @@ def falling_triangle_pulse_amplitude(duration: Any) -> Any:
     Returns
     -------
     float or ndarray
-        A in units of g θcr, in the shape of `duration`. It does not depend on the coefficient of restitution.
+        A in units of g θcr, in the shape of `duration`, for any coefficient of restitution.
 
     Raises
     ------
-    TypeError
-        If `duration` is not a real number or an array of real numbers.
-    ValueError
-        If `duration` lies outside its range.
+    TypeError, ValueError
+        As in `rectangular_pulse_amplitude`.
 
     See Also
     --------
@@ -109,14 +107,12 @@ def triangle_pulse_amplitude(duration: Any) -> Any:
     Returns
     -------
     float or ndarray
-        A in units of g θcr, in the shape of `duration`. It does not depend on the coefficient of restitution.
+        A in units of g θcr, in the shape of `duration`, for any coefficient of restitution.
 
     Raises
     ------
-    TypeError
-        If `duration` is not a real number or an array of real numbers.
-    ValueError
-        If `duration` lies outside its range.
+    TypeError, ValueError
+        As in `rectangular_pulse_amplitude`.
 
     See Also
     --------
@@ -153,14 +149,12 @@ def half_sine_pulse_amplitude(duration: Any) -> Any:
     Returns
     -------
     float or ndarray
-        A in units of g θcr, in the shape of `duration`. It does not depend on the coefficient of restitution.
+        A in units of g θcr, in the shape of `duration`, for any coefficient of restitution.
 
     Raises
     ------
-    TypeError
-        If `duration` is not a real number or an array of real numbers.
-    ValueError
-        If `duration` lies outside its range.
+    TypeError, ValueError
+        As in `rectangular_pulse_amplitude`.
 
     See Also
     --------
@@ -196,14 +190,12 @@ def one_sine_pulse_amplitude(duration: Any) -> Any:
     Returns
     -------
     float or ndarray
-        A in units of g θcr, in the shape of `duration`. It does not depend on the coefficient of restitution.
+        A in units of g θcr, in the shape of `duration`, for any coefficient of restitution.
 
     Raises
     ------
-    TypeError
-        If `duration` is not a real number or an array of real numbers.
-    ValueError
-        If `duration` lies outside its range.
+    TypeError, ValueError
+        As in `rectangular_pulse_amplitude`.
 
     See Also
     --------
@@ -287,15 +279,18 @@ def one_cosine_pulse_amplitude(duration: Any) -> Any:
 
     Raises
     ------
-    TypeError
-        If `duration` is not a real number or an array of real numbers.
-    ValueError
-        If `duration` lies outside its range.
+    TypeError, ValueError
+        As in `rectangular_pulse_amplitude`.
 
     See Also
     --------
     one_sine_pulse_amplitude : Threshold of one period of a sine.
     rocking.Pulse : The pulse as a base motion.
+
+    Notes
+    -----
+    Without an impact the condition of `falling_triangle_pulse_amplitude` holds for this pulse, too. Here t₀ = 0, and
+    ∫ e⁻ˣ cos Ωx dx over one period is (1 − e⁻ᵀ)/(1 + Ω²).
 
     Examples
     --------

@@ -71,7 +71,11 @@ def slide_rock_acceleration(critical_angle: Any, friction: Any, inertia_ratio: A
     >>> round(slide_rock_acceleration(rk.Block(height=2.0, width=0.5).critical_angle, 0.3), 5)
     0.45732
     """
-    angle, mu, inertia = checked(critical_angle, friction, inertia_ratio)
+    angle, mu, inertia = together(
+        critical_angle=between("critical_angle", critical_angle, *ANGLES),
+        friction=between("friction", friction, *FRICTION.range),
+        inertia_ratio=between("inertia_ratio", inertia_ratio, *INERTIA_RATIOS),
+    )
     s, c = np.sin(angle), np.cos(angle)
     top = mu * (1.0 - s**2 / inertia) - s * c / inertia
     bottom = 1.0 - (c**2 + mu * s * c) / inertia
@@ -106,10 +110,8 @@ def first_motion(
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range, or if the shapes do not broadcast.
+    TypeError, ValueError
+        As in `slide_rock_acceleration`.
 
     See Also
     --------
@@ -127,25 +129,15 @@ def first_motion(
     >>> first_motion(angle, 0.3, [0.2, 0.4, 0.6]).tolist(), first_motion(angle, 0.2, 0.4)
     (['rest', 'rock', 'slide-rock'], 'slide')
     """
-    angle, mu, inertia = checked(critical_angle, friction, inertia_ratio)
+    onset = np.asarray(slide_rock_acceleration(critical_angle, friction, inertia_ratio))  # checks these
     size = np.abs(between("acceleration", acceleration, -MAX_ACCELERATION, MAX_ACCELERATION))
-    angle, mu, inertia, size = np.broadcast_arrays(
-        *together(critical_angle=angle, friction=mu, inertia_ratio=inertia, acceleration=size)
+    values = together(
+        critical_angle=critical_angle, friction=friction, inertia_ratio=inertia_ratio, acceleration=size
     )
+    angle, mu, _, size = (each.astype(float) for each in values)
     level = np.tan(angle)
     sticks = mu > level
-    onset = np.nan_to_num(
-        np.asarray(slide_rock_acceleration(angle, mu, inertia)), nan=math.inf, posinf=math.inf
-    )
+    onset = np.nan_to_num(onset, nan=math.inf, posinf=math.inf)
     code = np.where(sticks, 2 * (size > level) + (size > onset), size > mu)
     found = np.array(FIRST_MOTIONS)[code]
     return found if found.ndim else str(found)
-
-
-def checked(critical_angle: Any, friction: Any, inertia_ratio: Any) -> list[Any]:
-    """Return the arguments, checked."""
-    return together(
-        critical_angle=between("critical_angle", critical_angle, *ANGLES),
-        friction=between("friction", friction, *FRICTION.range),
-        inertia_ratio=between("inertia_ratio", inertia_ratio, *INERTIA_RATIOS),
-    )

@@ -1,6 +1,6 @@
 """Symmetric (1, n) modes in closed form: Spanos & Koh (1984); Yim & Lin (1991), Eqs. (8)–(10).
 
-The modes themselves are computed in ``rocking.kernels.orbits.symmetric_mode``. This module computes the amplitudes between
+The modes themselves are computed in ``rocking.kernels.orbits.modes``. This module computes the amplitudes between
 which they exist and are stable.
 """
 
@@ -87,10 +87,8 @@ def symmetry_breaking_amplitude(period: Any, restitution: Any, n: Any) -> Any:
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `existence_amplitude`.
 
     See Also
     --------
@@ -139,10 +137,8 @@ def slower_mode_amplitude(period: Any, n: Any) -> Any:
 
     Raises
     ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If an argument lies outside its range.
+    TypeError, ValueError
+        As in `existence_amplitude`.
 
     See Also
     --------

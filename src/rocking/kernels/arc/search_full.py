@@ -156,11 +156,12 @@ def transfer_to_event(p, arc, coming):
 
 
 @kernel
-def first_event(p, arc, peak):
+def first_event(p, arc, peak, with_lows):
     """Return the first event of an arc: an impact, the proof that none follows, or a restart after a long time.
 
     The other results are the ``Extremes`` and the ``Stretch`` until then. The largest angle is ``peak`` at least. An infinite
-    ``peak`` spares the search for it. Where no event follows, the state is that at which this is proved.
+    ``peak`` spares the search for it. Minima are searched for ``with_lows`` only. Where no event follows, the state is that at which
+    this is proved.
     """
     angle, velocity, drive, elapsed = arc.angle, arc.velocity, arc.drive, 0.0
     brace, seen, growth, steps = p.block.brace_angle, NO_EXTREMES, 0.0, 0.0
@@ -184,7 +185,7 @@ def first_event(p, arc, peak):
         steps += part * part
         rise, velocity = state_in(step, h)
         end = 0.0 if t < math.inf else angle + rise
-        if may_turn_up(p, arc.side, step, drive, h, end, velocity):
+        if with_lows and may_turn_up(p, arc.side, step, drive, h, end, velocity):
             seen = with_minimum(p, arc.side, step, drive, h, end, velocity, elapsed, seen)
         elapsed += h
         if t < math.inf:
@@ -209,14 +210,16 @@ def stretch_of(growth, time, steps):
 def next_event_and_extremes(p, mode, arc, peak):
     """Provide ``contract.next_event_and_extremes``: the largest angle is found with the event."""
     if mode == FLIGHT:
-        return first_event(p, arc, peak)
+        return first_event(p, arc, peak, True)
     return contract.held_event(p, mode, arc), NO_EXTREMES, UNIT_RATE
 
 
 @body(contract.next_event, Full)
 def next_event(p, mode, arc, guess):
     """Provide ``contract.next_event``."""
-    return next_event_and_extremes(p, mode, arc, math.inf)[0], guess
+    if mode == FLIGHT:
+        return first_event(p, arc, math.inf, False)[0], guess
+    return contract.held_event(p, mode, arc), guess
 
 
 @body(contract.no_return_time, Full)

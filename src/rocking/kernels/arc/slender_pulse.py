@@ -152,15 +152,15 @@ def no_return_time(p, arc):
 
 
 @body(contract.side_above, Slender, Pulse, inline=True)
-def side_above(p, start, drive, left_level):
+def side_above(p, start, drive, right_level, left_level):
     """Provide ``contract.side_above``."""
-    return contract.side_above(system_at(p, drive.time), drive.time, drive, left_level)
+    return contract.side_above(system_at(p, drive.time), drive.time, drive, right_level, left_level)
 
 
 @body(contract.lift_off, Slender, Pulse, inline=True)
-def lift_off(p, arc, left_level):
+def lift_off(p, arc, right_level, left_level):
     """Provide ``contract.lift_off``."""
-    coming = contract.lift_off(system_at(p, arc.drive.time), harmonic_arc(arc), left_level)
+    coming = contract.lift_off(system_at(p, arc.drive.time), harmonic_arc(arc), right_level, left_level)
     return before_end(p, REST, arc, coming)
 
 

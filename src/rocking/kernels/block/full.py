@@ -70,10 +70,10 @@ def impacts_per_trial(p):
     return 1
 
 
-@body(contract.side_to_lift, Full, inline=True)
-def side_to_lift(p, start, drive):
-    """Provide ``contract.side_to_lift``: that of the slender block which rests as long."""
-    return contract.side_above(p.resting, start, drive, p.block.left_level)
+@body(contract.resting, Full, inline=True)
+def resting(p):
+    """Provide ``contract.resting``."""
+    return p.resting, p.block.left_level
 
 
 @body(contract.stays_leaning, Full, inline=True)
@@ -86,7 +86,7 @@ def stays_leaning(p, arc):
 def held_event(p, mode, arc):
     """Provide ``contract.held_event``: that of the slender block which rests as long."""
     if mode == REST:
-        return contract.lift_off(p.resting, arc, p.block.left_level)
+        return contract.lift_off(p.resting, arc, 1.0, p.block.left_level)
     found = contract.held_event(p.resting, mode, arc)
     return Next(found.wait, found.event, found.side, p.block.brace_angle, 0.0, found.drive, 0.0, 0.0)
 

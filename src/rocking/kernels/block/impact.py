@@ -3,14 +3,8 @@
 import math
 
 from rocking.kernels.block.chattering import base_settling_time, brace_settling_within
-from rocking.kernels.contract import (
-    arc_after,
-    arc_renewed,
-    has_wall,
-    restitution_at,
-    side_to_lift,
-    stays_leaning,
-)
+from rocking.kernels.block.rest import side_to_lift
+from rocking.kernels.contract import arc_after, arc_renewed, has_wall, restitution_at, stays_leaning
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST
 from rocking.kernels.library.kernel import kernel
 

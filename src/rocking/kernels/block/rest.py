@@ -50,17 +50,17 @@ def half_at(p, level):
 
 
 @kernel
-def wait_at_rest(p, psi, left_level):
-    """Return the time until a block at rest lifts off, when -A cos psi rises through 1 or A cos psi through ``left_level``.
+def wait_at_rest(p, psi, right_level, left_level):
+    """Return the time until a block at rest lifts off: -A cos psi rises through ``right_level``, or A cos psi through ``left_level``.
 
     Returns
     -------
     tuple of (float, int)
         The time, infinite if neither happens, and the side of the lift-off.
     """
-    right, left, left_half = math.inf, math.inf, half_at(p, left_level)
-    if p.forcing.base_half < math.inf:
-        right = until_window(p, 1, psi, p.forcing.base_half, False)
+    right, left, right_half, left_half = math.inf, math.inf, half_at(p, right_level), half_at(p, left_level)
+    if right_half < math.inf:
+        right = until_window(p, 1, psi, right_half, False)
     if left_half < math.inf:
         left = until_window(p, -1, psi, left_half, False)
     return (right, 1) if right < left or left == math.inf else (left, -1)
@@ -74,17 +74,24 @@ def wait_leaning(p, side, psi):
     return until_window(p, side, psi, p.forcing.brace_half, True)
 
 
-@body(contract.side_to_lift, Slender, inline=True)
+@body(contract.resting, Slender, inline=True)
+def resting(p):
+    """Provide ``contract.resting``."""
+    return p, 1.0
+
+
+@kernel(inline=True)
 def side_to_lift(p, start, drive):
-    """Provide ``contract.side_to_lift``."""
-    return contract.side_above(p, start, drive, 1.0)
+    """Return the side to which a block at rest lifts now, where f > 0; 0 if it stays."""
+    q, left_level = contract.resting(p)
+    return contract.side_above(q, start, drive, 1.0, left_level)
 
 
 @body(contract.side_above, Slender, Cosine)
-def side_above(p, start, drive, left_level):
+def side_above(p, start, drive, right_level, left_level):
     """Provide ``contract.side_above``."""
     psi = p.forcing.frequency * start + p.forcing.phase
-    for side, level in ((1, 1.0), (-1, left_level)):
+    for side, level in ((1, right_level), (-1, left_level)):
         half = half_at(p, level)
         if half < math.inf and not first_sign_change(p, side, psi, 0.0, half)[1]:
             return side
@@ -92,9 +99,9 @@ def side_above(p, start, drive, left_level):
 
 
 @body(contract.lift_off, Slender, Cosine)
-def lift_off(p, arc, left_level):
+def lift_off(p, arc, right_level, left_level):
     """Provide ``contract.lift_off``."""
-    wait, side = wait_at_rest(p, arc.constants.psi, left_level)
+    wait, side = wait_at_rest(p, arc.constants.psi, right_level, left_level)
     return Next(wait, LIFT_OFF if wait < math.inf else NONE, side, 0.0, 0.0, UNKNOWN, 0.0, 0.0)
 
 
@@ -110,7 +117,7 @@ def stays_leaning(p, arc):
 def held_event(p, mode, arc):
     """Provide ``contract.held_event``."""
     if mode == REST:
-        return lift_off(p, arc, 1.0)
+        return lift_off(p, arc, 1.0, 1.0)
     wait = wait_leaning(p, arc.side, arc.constants.psi)
     event = LEAVE if wait < math.inf else NONE
     return Next(wait, event, arc.side, p.block.brace_angle, 0.0, UNKNOWN, 0.0, 0.0)
@@ -188,9 +195,9 @@ def rises_beyond(p, levels, drive):
 
 
 @body(contract.lift_off, Slender, Samples)
-def lift_off_under_samples(p, arc, left_level):
+def lift_off_under_samples(p, arc, right_level, left_level):
     """Provide ``contract.lift_off``."""
-    side, drive = rises_beyond(p, Levels(left_level, 1.0), arc.drive)
+    side, drive = rises_beyond(p, Levels(left_level, right_level), arc.drive)
     if side == 0:
         return nothing_more(arc.side, arc.drive)
     return Next(time_between(p, arc.drive, drive), LIFT_OFF, -side, 0.0, 0.0, drive, 0.0, 0.0)
@@ -211,9 +218,9 @@ def departure(p, arc):
 
 
 @body(contract.side_above, Slender, Samples)
-def side_above_under_samples(p, start, drive, left_level):
+def side_above_under_samples(p, start, drive, right_level, left_level):
     """Provide ``contract.side_above``."""
-    return -side_beyond(Levels(left_level, 1.0), acceleration_at(p, drive))
+    return -side_beyond(Levels(left_level, right_level), acceleration_at(p, drive))
 
 
 @body(contract.stays_leaning, Slender, Samples)
@@ -227,4 +234,31 @@ def stays_leaning_under_samples(p, arc):
 @body(contract.held_event, Slender, Samples)
 def held_event_under_samples(p, mode, arc):
     """Provide ``contract.held_event``."""
-    return lift_off_under_samples(p, arc, 1.0) if mode == REST else departure(p, arc)
+    return lift_off_under_samples(p, arc, 1.0, 1.0) if mode == REST else departure(p, arc)
+
+
+# Relative error of a level of lift-off and of the base acceleration, that of their conversions included.
+LEVEL_ERROR = 2.0**-49
+# While the base acceleration is so close to a level no angle exceeds LEVEL_ERROR times the square of this time.
+SAME_TIME = 2.0**-20
+
+
+@kernel
+def lift_off_is_sure(p, arc):
+    """Return whether the next lift-off of a block at rest is the same, however the base acceleration and its levels were rounded."""
+    q, left_level = contract.resting(p)
+    lower, higher = 1.0 - LEVEL_ERROR, 1.0 + LEVEL_ERROR
+    early = contract.lift_off(q, arc, lower, lower * left_level)
+    if early.wait == math.inf:
+        return True
+    late = contract.lift_off(q, arc, higher, higher * left_level)
+    return late.side == early.side and late.wait - early.wait < SAME_TIME
+
+
+@kernel
+def start_is_sure(p, arc):
+    """Return whether a block at rest at the start of an arc lifts off there to the same side, however the levels were rounded."""
+    q, left_level = contract.resting(p)
+    lower, higher = 1.0 - LEVEL_ERROR, 1.0 + LEVEL_ERROR
+    early = contract.side_above(q, arc.start, arc.drive, lower, lower * left_level)
+    return early == contract.side_above(q, arc.start, arc.drive, higher, higher * left_level)

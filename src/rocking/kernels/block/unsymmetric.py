@@ -283,13 +283,13 @@ def next_event(p, mode, arc, guess):
 @body(contract.held_event, Unsymmetric)
 def held_event(p, mode, arc):
     """Provide ``contract.held_event``: there are no braces."""
-    return contract.lift_off(right_half(p), arc, p.block.left.ratio)
+    return contract.lift_off(right_half(p), arc, 1.0, p.block.left.ratio)
 
 
-@body(contract.side_to_lift, Unsymmetric, inline=True)
-def side_to_lift(p, start, drive):
-    """Provide ``contract.side_to_lift``."""
-    return contract.side_above(right_half(p), start, drive, p.block.left.ratio)
+@body(contract.resting, Unsymmetric, inline=True)
+def resting(p):
+    """Provide ``contract.resting``: the units are those of the right side."""
+    return right_half(p), p.block.left.ratio
 
 
 @body(contract.stays_leaning, Unsymmetric, inline=True)

@@ -17,6 +17,7 @@ import numpy as np
 
 from rocking.kernels.arc.arc import Arc, Next, shift_clock
 from rocking.kernels.block.impact import SLOW, SLOWEST, after_chattering, after_event, side_after_impact
+from rocking.kernels.block.rest import lift_off_is_sure, start_is_sure
 from rocking.kernels.block.scatter import next_place
 from rocking.kernels.contract import (
     acceleration,
@@ -162,7 +163,7 @@ class Closeness(NamedTuple):
     margins: int  # number of margins that were computed
 
 
-with_error = replacing(Closeness, "error")
+with_error, with_decided = replacing(Closeness, "error"), replacing(Closeness, "decided")
 
 
 @kernel(inline=True)
@@ -335,7 +336,9 @@ def to_end(p, angle, velocity, until, cut, want_peak, each):
     highest = from_peak(progress.peak, arc)
     since_rest, cycle, free, sides = 0, 0, p.block.brace_angle == math.inf, 1 if is_symmetric(p) else 2
     place = progress.place
-    close, status = Closeness(math.inf, math.nan, True, False, EXACT, 0), CROWDED
+    begins_at_rest = angle == 0.0 and velocity == 0.0
+    decided = not begins_at_rest or start_is_sure(p, arc)
+    close, status = Closeness(math.inf, math.nan, decided, False, EXACT, 0), CROWDED
     closest, per_trial = arc, impacts_per_trial(p)
     for _ in range(MAX_EVENTS):
         wanted = highest.reached if want_peak else math.inf
@@ -346,6 +349,8 @@ def to_end(p, angle, velocity, until, cut, want_peak, each):
             before = close.time
             close = after_arc(p, arc, time, coming, extremes, stretch, close, error, each)
             closest = arc if close.time != before else closest
+        if mode == REST and close.decided:
+            close = with_decided(close, lift_off_is_sure(p, arc))
         if coming.wait == math.inf or time + coming.wait > until:
             status = DONE if coming.wait < math.inf else OVERTURNED if mode == FLIGHT else STILL
             break

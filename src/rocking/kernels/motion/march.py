@@ -12,6 +12,7 @@ import numpy as np
 
 from rocking.kernels.arc.arc import MAX_ARC_TIME, Arc, shift_clock, within_reach
 from rocking.kernels.block.impact import after_event
+from rocking.kernels.block.rest import side_to_lift
 from rocking.kernels.block.scatter import next_place
 from rocking.kernels.contract import (
     arc_at,
@@ -24,7 +25,6 @@ from rocking.kernels.contract import (
     no_return_time,
     peak_with,
     resynchronise,
-    side_to_lift,
     stays_leaning,
 )
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, NONE, REST
