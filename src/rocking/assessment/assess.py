@@ -441,7 +441,7 @@ def _friction(motions: Iterable[Motion], block: Block) -> float:
     """Return the friction that all motions need; NaN if the events of one were not kept, or if there is nothing to assess."""
     needs = []
     for motion in motions:
-        if motion.record != "all":
+        if motion.record != "all" or block.restrainer is not None:
             return math.nan
         needed = motion.validity(block).friction
         if needed is not None:
