@@ -505,7 +505,7 @@ TEXTS = {name: each.help for name, each in SYSTEM_QUANTITIES.items()} | {
     "centre_height": "Height of the mass centre above the base, m. Default: half the height.",
     "radius_of_gyration": "Radius of gyration about the mass centre, m. Default: that of a uniform rectangle.",
     "wall": "Coefficient of restitution, in [0, 1], of a wall on the side Θ < 0, against which the block stands. Default: no wall.",
-    "restrainer_stiffness": "Stiffness EA/L of a vertical restrainer from the middle of the base, N/m, with --mass. Default: no restrainer.",
+    "restrainer_stiffness": "Stiffness EA/L of a vertical restrainer from the middle of the base, N/m. Default: no restrainer.",
     "restrainer_prestress": "Force of the restrainer in the block at rest, N. Default: 0.",
     "mass": "Mass of a restrained block, kg.",
 }

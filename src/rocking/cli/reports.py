@@ -47,6 +47,7 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
             yield "restrainer", f"κ = {block.stiffness_ratio:.6g}, ρ = {block.prestress_ratio:.6g}", ""
         yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
         unit = ", a/(g tan θcr)" if block.normalised_by == "tangent" else ""
+        unit = unit if block.restrainer is None else unit.replace("(g", "((1 + ρ) g")
         slender = system.critical_angle is None
         yield "equation of motion", f"small angles{unit}" if slender else "full", ""
         if block.left is not None:

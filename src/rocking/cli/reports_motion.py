@@ -378,7 +378,10 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     braced = motion.system.braces is not None
     if block.restrainer is None:
         by = block.normalised_by
-        yield "equation of motion", equation(*block.critical_angles, full=full, braced=braced, normalised_by=by)
+        yield (
+            "equation of motion",
+            equation(*block.critical_angles, full=full, braced=braced, normalised_by=by),
+        )
     else:
         yield "equation of motion", SMALL_ANGLES
         balance = f"unstable balance at {float(block.degrees(1.0)):.4g}°"

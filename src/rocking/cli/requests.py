@@ -12,11 +12,11 @@ from attrs import Factory, evolve, frozen
 from rocking.cli.options import (
     AMPLITUDES,
     AXIS_FORM,
+    MASS_CENTRE,
     NORMALISED,
     RANGE_FORM,
-    SI,
-    MASS_CENTRE,
     RESTRAINER,
+    SI,
     STANDING,
     START,
     SURVEYED,
@@ -142,7 +142,7 @@ def system_of(options: Options) -> tuple[System, Block | None]:
         if "critical_angle" in options:
             raise InvalidInput("--critical-angle is normalised: with --height and --width give --model full")
     braces = braces_of(options)
-    with refusals({"kind": "--pulse"}):
+    with refusals({"kind": "--pulse", "stiffness": "--restrainer-stiffness"}):
         if normalised:
             block = None
             forcing = Harmonic(**select(options, *NORMALISED, "phase"))

@@ -22,8 +22,8 @@ from rocking.model.block_formulas import (
 from rocking.model.forcing import BaseMotion, Forcing, Harmonic
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, LEFT_RESTITUTION, SIZES
-from rocking.model.restrainer import Restrainer, checked_restrainer
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, checked_law, law_of
+from rocking.model.restrainer import Restrainer, checked_restrainer
 from rocking.model.section import SYMMETRIC, section_of
 from rocking.model.system import (
     MODELS,
@@ -718,9 +718,7 @@ class Block(Dimensions):
 
     def velocity(self, radians_per_second: Any) -> Any:
         """Normalised velocity Θ', from an angular velocity in rad/s."""
-        return reals("radians_per_second", radians_per_second) / (
-            self.angle_unit * self.rate_unit
-        )
+        return reals("radians_per_second", radians_per_second) / (self.angle_unit * self.rate_unit)
 
     def top_displacement(self, angle: Any) -> Any:
         """Displacement H sin θ along the base of the top corner above the pivot, in metres, from a normalised angle."""
@@ -826,11 +824,15 @@ def block_attributes(block: Block) -> dict[str, Any]:
         }
     )
     wall = {} if block.wall is None else {"block_wall_restitution": block.wall.restitution}
-    restrainer = {} if block.restrainer is None else {
-        "block_restrainer_stiffness_n_per_m": block.restrainer.stiffness,
-        "block_restrainer_prestress_n": block.restrainer.prestress,
-        "block_mass_kg": block.restrainer.mass,
-    }
+    restrainer = (
+        {}
+        if block.restrainer is None
+        else {
+            "block_restrainer_stiffness_n_per_m": block.restrainer.stiffness,
+            "block_restrainer_prestress_n": block.restrainer.prestress,
+            "block_mass_kg": block.restrainer.mass,
+        }
+    )
     centre = {} if block.centre_height == block.height / 2 else {"block_centre_height_m": block.centre_height}
     return {
         **by,

@@ -307,8 +307,12 @@ WALL_RESTITUTION = Quantity(
     label=r"coefficient of restitution of the wall $e_\mathrm{w}$",
     help="Coefficient of restitution of impacts against a wall on the side θ < 0. Default: no wall.",
 )
-STIFFNESS_RATIO = Quantity("stiffness_ratio", "κ", "stiffness of the restrainer over that of gravity", (0.0, 1.0))
-PRESTRESS_RATIO = Quantity("prestress_ratio", "ρ", "force of the restrainer at rest over the weight", (0.0, 1e6))
+STIFFNESS_RATIO = Quantity(
+    "stiffness_ratio", "κ", "stiffness of the restrainer over that of gravity", (0.0, 1.0)
+)
+PRESTRESS_RATIO = Quantity(
+    "prestress_ratio", "ρ", "force of the restrainer at rest over the weight", (0.0, 1e6)
+)
 FRICTION = Quantity(
     "friction",
     "μ",

@@ -299,8 +299,8 @@ class System:
         """Refuse a table for the slender block, and braces that a full block reaches only when it lies flat."""
         self._check_left()
         if self.block is not None:
-            restrained, got = self.block.restrainer is not None, Text("both")
-            refuse_if(restrained and self.braces is not None, "braces", RESTRAINED, got)
+            restrained = self.block.restrainer is not None
+            refuse_if(restrained and self.braces is not None, "braces", RESTRAINED, Text(str(self.braces)))
             object.__setattr__(self, "block", self._fitting(self.block))
         if self.critical_angle is None:
             allowed = "be omitted for a slender block"

@@ -450,7 +450,6 @@ class MotionSpec(SurveySpec):
     intensity measure.
     """
 
-    comment = "A peak is in units of the critical angle; impacts of chattering sequences do not count."
     contiguous = True
     numbers: ClassVar[dict[str, str]] = {"record": "number of the record, from 0"}
 
@@ -463,6 +462,12 @@ class MotionSpec(SurveySpec):
     worse: bool = field(default=False, kw_only=True)
     """Flag: each run is the worse one of the motion and its reverse. The polarity is then 1."""
     law: Restitution = field(kw_only=True)
+
+    @property
+    def comment(self) -> str:  # type: ignore[override]
+        """Unit of a peak, and what does not count."""
+        unit = "angle of unstable balance" if "stiffness_ratio" in self.fixed else "critical angle"
+        return f"A peak is in units of the {unit}; impacts of chattering sequences do not count."
 
     @property
     def full(self) -> bool:
