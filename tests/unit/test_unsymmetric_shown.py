@@ -1,4 +1,4 @@
-"""What figures and the explorer show of an unsymmetric block."""
+"""What figures and the explorer show of an unsymmetric block, and of one against a wall."""
 
 import math
 import re
@@ -12,7 +12,7 @@ from rocking.explorer import texts
 from rocking.explorer.fields import Refused
 from rocking.explorer.ground_block import block_motion
 from rocking.explorer.ground_view import DEFAULT as GROUND
-from rocking.explorer.ground_view import ground_of
+from rocking.explorer.ground_view import GroundView, ground_of
 from rocking.explorer.harmonic_maps import curves
 from rocking.explorer.harmonic_view import DEFAULT as HARMONIC
 from rocking.explorer.harmonic_view import HarmonicView
@@ -181,3 +181,32 @@ def test_friction_of_scattered_impacts_is_that_of_the_speeds_after_them():
     # velocity of the mass centre turning about a corner: (height, distance to the corner) × angular velocity
     needed = height * (before - after) / (old * before + new * after)
     assert validity.friction == pytest.approx(needed.max(), rel=1e-12)
+
+
+def test_figures_show_the_wall_at_the_left_face_of_the_block():
+    block = rk.Block(height=2.0, width=0.6, wall=rk.Wall(0.5))
+    ax = rk.plot.schematic(block=block)
+    scene = Scene(Figure().subplots(), block, np.array([0.0, 0.1]), np.zeros(2))
+    for parts in (ax.patches, scene.parts):
+        (wall,) = (part for part in parts if part.get_gid() == "wall")
+        assert wall.get_x() + wall.get_width() == pytest.approx(-0.3, rel=1e-14)
+        assert wall.get_height() > 2.0
+    assert scene.centre not in scene.parts
+    with pytest.raises(ValueError, match="lean must be 0 or more for a block against a wall; got -0.5"):
+        rk.plot.schematic(block=block, lean=-0.5)
+
+
+def test_page_of_ground_motions_follows_the_block_against_a_wall():
+    view = GROUND.changed(
+        {"source": "synthetic-1", "scale": "1.7", "height": "2", "width": "0.6", "wall": "0.5"}
+    )
+    assert GroundView.from_address(view.address) == (view, {})
+    assert "wall" not in GROUND.address
+    figures, words = block_motion(view, ground_of(view, ()))
+    assert figures["history"]["line"]["angle"].min() == 0.0
+    facts = dict(words["facts"])
+    assert (facts["e"], facts["lifts off at"]) == ("0.5 (wall)", "−0.3 g")
+    assert words["sentence"].endswith("The blocks of the map have no wall.")
+    assert view.changed(view.at_point(1.0, 15.0)).wall is None
+    with pytest.raises(Refused, match="wall"):
+        view.changed({"wall": "1.5"})

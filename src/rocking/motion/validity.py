@@ -220,12 +220,18 @@ def validity(
         sideways, up = base_reaction(motion, block, times, sides)
         return np.stack((sideways, -sideways)), up
 
+    def hold_away(times: Array, sides: Array) -> tuple[Array, Array]:
+        """Return the same of a block at rest that is pulled away from the wall; the other way the wall holds it."""
+        sideways, up = hold(times, sides)
+        return sideways[:1], up
+
+    still = hold if motion.system.wall is None else hold_away
     reaction = min(global_minimum(upward, moving, fast), global_minimum(upward, resting, slow))
     pulled = Extreme(-math.inf, reaction.time)
     needs = {
         "motion": global_minimum(hold, moving, fast) if reaction.value > 0 else pulled,
         "impact": impact_friction(motion, block),
-        "rest": global_minimum(hold, resting, slow),
+        "rest": global_minimum(still, resting, slow),
     }
     source = min(needs, key=lambda name: needs[name].value)
     needed = needs[source]
@@ -238,7 +244,7 @@ def validity(
                 "impact",
             ),
             (first_time(hold, -friction, moving, fast), "motion"),
-            (first_time(hold, -friction, resting, slow), "rest"),
+            (first_time(still, -friction, resting, slow), "rest"),
         )
     angle = largest_angle(motion, block, until)
     slender = motion.system.critical_angle is None
@@ -463,8 +469,8 @@ def warnings(result: Validity, motion: Trajectory, block: Block, leaning: Arcs) 
     yield from block_warnings(block, largest, right, result.angle, left_restitution=left, full=full)
     if motion.system.wall is not None:
         yield (
-            "wall: its impacts are not assessed, because the base reactions depend on the height of the contact; at rest the base is "
-            "taken to bear the whole block"
+            "wall: its impacts are not assessed, because the base reactions depend on the height of the contact; a block at rest that is "
+            "pressed against it is taken to be held by it"
         )
     if motion.brace_hits:
         yield f"brace impacts: {motion.brace_hits}, not assessed, because the base reactions depend on the height of the brace"

@@ -109,8 +109,16 @@ def wall_of(block: Block) -> Rectangle:
     """Return the wall beside a block, hatched."""
     thick = 0.06 * block.height
     corner = -block.width / 2 - thick, 0.0
-    look = {"facecolor": style.TABLE, "edgecolor": style.INK, "hatch": "////", "linewidth": style.THIN}
-    return Rectangle(corner, thick, 1.04 * block.height, gid="wall", **look)
+    return Rectangle(
+        corner,
+        thick,
+        1.04 * block.height,
+        facecolor=style.TABLE,
+        edgecolor=style.INK,
+        hatch="////",
+        linewidth=style.THIN,
+        gid="wall",
+    )
 
 
 def restrainer_of(anchor: NDArray, foot: NDArray) -> Line2D:
