@@ -30,7 +30,7 @@ from rocking.cli.options import (
     refusals,
 )
 from rocking.model.block import Block
-from rocking.model.block_formulas import with_unit
+from rocking.model.block_formulas import acceleration_unit_g, with_unit
 from rocking.model.forcing import Harmonic, Pulse
 from rocking.model.quantity import FRICTION, SYSTEM_QUANTITIES
 from rocking.model.restitution import Restitution
@@ -241,7 +241,9 @@ def by_normalisation(block: Block | None, options: Options) -> Block | None:
 
 def unit_ratio(block: Block | None) -> float:
     """Return g θcr in units of the acceleration of a block; 1 for normalised input."""
-    return 1.0 if block is None else with_unit(block, "angle").acceleration_unit_g / block.acceleration_unit_g
+    if block is None:
+        return 1.0
+    return block.critical_angle / acceleration_unit_g(block.critical_angle, block.normalised_by)
 
 
 def standing_of(options: Options) -> dict[str, Any]:
