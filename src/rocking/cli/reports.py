@@ -45,7 +45,7 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
         else:
             yield "unstable balance", "1", f"{block.degrees(1.0):.4g}°"
             yield "restrainer", f"κ = {block.stiffness_ratio:.6g}, ρ = {block.prestress_ratio:.6g}", ""
-        yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
+        yield time_unit(block), "1", f"{block.seconds(1.0):.4g} s"
         unit = ", a/(g tan θcr)" if block.normalised_by == "tangent" else ""
         unit = unit if block.restrainer is None else unit.replace("(g", "((1 + ρ) g")
         slender = system.critical_angle is None
@@ -152,6 +152,11 @@ def reach(angle: float, block: Block | None) -> str:
 def state_in_si(state: Any, block: Block) -> str:
     """Return the angle and the velocity of a state in ° and °/s."""
     return f"{in_si('angle', state.angle, block)}, {in_si('velocity', state.velocity, block)}"
+
+
+def time_unit(block: Block) -> str:
+    """Return the name of the unit of time of a block."""
+    return "time unit 1/α" if block.restrainer is None else "time unit"
 
 
 SMALL_ANGLES = "small angles, with the restrainer"

@@ -23,6 +23,7 @@ from rocking.cli.reports import (
     origin,
     reach,
     state_in_si,
+    time_unit,
     warning_lines,
 )
 from rocking.model.block import Block
@@ -386,7 +387,7 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
         yield "equation of motion", SMALL_ANGLES
         balance = f"unstable balance at {float(block.degrees(1.0)):.4g}°"
         yield "restrainer", f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}, {balance}"
-    yield "time unit 1/α", f"{block.seconds(1.0):.4g} s"
+    yield time_unit(block), f"{block.seconds(1.0):.4g} s"
     yield "lift-off from rest", lift_off_text(motion.system, block)
     left = f" for θ > 0, {block.left_restitution:.6g} for θ < 0" if both else ""
     if block.wall is None:
