@@ -48,6 +48,7 @@ KINDS = {
     "full, unsymmetric": {"critical_angle": 0.25, "left": LEFT},
     "slender, wall": {"left": WALL, "restitution": 0.5},
     "full, wall": {"critical_angle": 0.25, "left": WALL, "restitution": 0.5},
+    "slender, restrained": {"block": rk.Block(2.0, 0.5, 0.9).restrained(4e4, 900.0, mass=600.0)},
 }
 AMPLITUDES = np.array([1.5, 2.0, 2.5])
 FEW = {"samples": 10, "max_cycles": 200}
@@ -152,7 +153,8 @@ LEVELS = [2.0, 6.0]
 
 def block_of(kind):
     wall = WALL if "wall" in kind else None
-    return rk.Block(2.0, 0.5, offset=0.05 if "unsymmetric" in kind else 0.0, wall=wall)
+    block = rk.Block(2.0, 0.5, offset=0.05 if "unsymmetric" in kind else 0.0, wall=wall)
+    return block.restrained(4e4, 900.0, mass=600.0) if "restrained" in kind else block
 
 
 def of_records(survey, **more):

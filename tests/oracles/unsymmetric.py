@@ -1,8 +1,9 @@
-"""Motion of a block with unequal sides, or against a wall, by two methods.
+"""Motion of a block with unequal sides, against a wall, or with a vertical elastic restrainer, by two methods.
 
 They are DOP853 of SciPy with events, and Runge-Kutta of order 4 with located impacts.
 Nothing is taken from the package. The equation is that of the angle theta in rad, in units of time 1/p of the right side. With w =
-alpha_i sigma - theta on side sigma, theta'' = -p_i^2 (sin w + a cos w), or -p_i^2 (w + a) for a slender block; a is in g.
+alpha_i sigma - theta on side sigma, theta'' = -p_i^2 (sin w + a cos w), or -p_i^2 (w + a) for a slender block; a is in g. A restrainer
+with the ratios kappa of its stiffness and rho of its force adds kappa theta + sigma rho alpha to w + a.
 """
 
 import math
@@ -28,6 +29,8 @@ class Block(NamedTuple):
     restitution: tuple[float, float]
     full: bool
     wall: bool = False
+    kappa: float = 0.0  # for a slender block alone, as rho
+    rho: float = 0.0
 
 
 class Base(NamedTuple):
@@ -65,12 +68,22 @@ def acceleration_in(base, part, time):
 def bend_of(block, side, theta, push):
     i = 0 if side > 0 else 1
     w, square = block.alpha[i] * side - theta, block.rate[i] * block.rate[i]
-    return -square * (math.sin(w) + push * math.cos(w) if block.full else w + push)
+    if block.full:
+        return -square * (math.sin(w) + push * math.cos(w))
+    return -square * (w + push + block.kappa * theta + side * block.rho * block.alpha[i])
 
 
 @njit
 def level_of(block, i):
-    return math.tan(block.alpha[i]) if block.full else block.alpha[i]
+    return math.tan(block.alpha[i]) if block.full else block.alpha[i] * (1.0 + block.rho)
+
+
+@njit
+def reach_of(block, largest, i):
+    """Angle beyond which the block certainly never comes back if it moves away: it lies flat, or theta'' > 0 for ever."""
+    if block.full:
+        return RIGHT_ANGLE
+    return (block.alpha[i] * (1.0 + block.rho) + largest + 1e-9) / (1.0 - block.kappa)
 
 
 @njit
@@ -87,7 +100,7 @@ def is_lost(block, largest, side, theta, speed):
     i = 0 if side > 0 else 1
     if block.full:
         return side * theta >= RIGHT_ANGLE
-    return side * theta > block.alpha[i] + largest + 1e-9 and side * speed > 0.0
+    return side * theta > reach_of(block, largest, i) and side * speed > 0.0
 
 
 @njit
@@ -228,9 +241,7 @@ def with_dop853(block, base, angle=0.0, velocity=0.0, until=math.inf):
                 return y[1]
 
             def fallen(t, y, side=side):
-                i = 0 if side > 0 else 1
-                reach = RIGHT_ANGLE if block.full else block.alpha[i] + largest + 1e-9
-                return side * y[0] - reach
+                return side * y[0] - reach_of(block, largest, 0 if side > 0 else 1)
 
             at_base.terminal = fallen.terminal = True
             at_base.direction, fallen.direction = -1, 1

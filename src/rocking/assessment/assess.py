@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.block import Block, block_attributes
+from rocking.model.block import Block, block_attributes, unrestrained
 from rocking.model.forcing import BaseMotion
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.hazard import MAX_YEARS, OverturningRate
@@ -262,7 +262,7 @@ def assess(
     (0, True)
     """
     chosen = record_set(records)
-    instance("block", block, Block)
+    unrestrained(instance("block", block, Block), "block", "an assessment compares both equations of motion")
     instance("name", name, str)
     measure, _ = intensity_of(intensity, chosen)
     grid = np.atleast_1d(reals("levels", levels))

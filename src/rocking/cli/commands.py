@@ -34,6 +34,7 @@ from rocking.cli.options import (
     READING,
     RECORD,
     REPAIR,
+    RESTRAINER,
     SOURCES,
     STANDING,
     START,
@@ -128,7 +129,7 @@ COMMANDS = (
         inputs="requests.simulation",
         report="reports_motion.SIMULATE",
         options=(
-            *quantities(*SYSTEM, "wall", *START),
+            *quantities(*SYSTEM, "wall", *RESTRAINER, *START),
             make(
                 "pulse",
                 TEXT,
@@ -256,7 +257,7 @@ rocking slide example --friction 0.3 --pga-g 0.5 --plot slip.png
         report="reports_records.SPECTRUM",
         options=(
             SOURCES,
-            *quantities("height", "width", *STANDING),
+            *quantities("height", "width", *MASS_CENTRE, "wall"),
             interval(
                 "size",
                 VALUES,

@@ -19,8 +19,9 @@ SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "freq
 FORCED = (*NORMALISED, *SI, "restitution")
 MASS_CENTRE = ("offset", "centre_height", "radius_of_gyration")
 """Options in SI that place the mass centre of a block, and state its inertia."""
-STANDING = (*MASS_CENTRE, "wall")
-"""The same, and the wall against which the block stands."""
+RESTRAINER = ("restrainer_stiffness", "restrainer_prestress", "mass")
+STANDING = (*MASS_CENTRE, "wall", *RESTRAINER)
+"""The same, the wall against which the block stands, and its restrainer."""
 SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution", "critical_angle", *MASS_CENTRE)
 START = ("angle", "velocity")
 SURVEYED = (
@@ -504,6 +505,9 @@ TEXTS = {name: each.help for name, each in SYSTEM_QUANTITIES.items()} | {
     "centre_height": "Height of the mass centre above the base, m. Default: half the height.",
     "radius_of_gyration": "Radius of gyration about the mass centre, m. Default: that of a uniform rectangle.",
     "wall": "Coefficient of restitution, in [0, 1], of a wall on the side Θ < 0, against which the block stands. Default: no wall.",
+    "restrainer_stiffness": "Stiffness EA/L of a vertical restrainer from the middle of the base, N/m. Default: no restrainer.",
+    "restrainer_prestress": "Force of the restrainer in the block at rest, N. Default: 0.",
+    "mass": "Mass of a restrained block, kg.",
 }
 """Help of the options of a system and an initial state, the same in all commands."""
 

@@ -45,7 +45,7 @@ READING = ("units", "step", "baseline")
 OF_SET = (*READING, "component")
 OF_BASELINE = ("pgv", "pgd", "pgv_ratio")
 """Options of levels that a wrong baseline changes most."""
-NAMES = {"pga": "--pga-g", "factor": "--scale"}
+NAMES = {"pga": "--pga-g", "factor": "--scale", "stiffness": "--restrainer-stiffness"}
 """Arguments in messages → names of options, where these differ."""
 
 

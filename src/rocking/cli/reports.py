@@ -40,9 +40,14 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
     restitution, braces = system.restitution, system.braces
     if block is not None:
         yield "", "normalised", "in SI"
-        yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
-        yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
+        if block.restrainer is None:
+            yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
+        else:
+            yield "unstable balance", "1", f"{block.degrees(1.0):.4g}°"
+            yield "restrainer", f"κ = {block.stiffness_ratio:.6g}, ρ = {block.prestress_ratio:.6g}", ""
+        yield time_unit(block), "1", f"{block.seconds(1.0):.4g} s"
         unit = ", a/(g tan θcr)" if block.normalised_by == "tangent" else ""
+        unit = unit if block.restrainer is None else unit.replace("(g", "((1 + ρ) g")
         slender = system.critical_angle is None
         yield "equation of motion", f"small angles{unit}" if slender else "full", ""
         if block.left is not None:
@@ -60,6 +65,11 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
     if braces is not None:
         at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
         yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
+
+
+def angle_symbol(block: Block) -> str:
+    """Return the unit of the normalised angles of a block in words."""
+    return "θcr" if block.restrainer is None else "of the angle of unstable balance"
 
 
 def left_text(left: Side | None) -> str:
@@ -144,6 +154,14 @@ def state_in_si(state: Any, block: Block) -> str:
     return f"{in_si('angle', state.angle, block)}, {in_si('velocity', state.velocity, block)}"
 
 
+def time_unit(block: Block) -> str:
+    """Return the name of the unit of time of a block."""
+    return "time unit 1/α" if block.restrainer is None else "time unit"
+
+
+SMALL_ANGLES = "small angles, with the restrainer"
+
+
 def equation(
     critical_angle: float,
     left_angle: float | None = None,
@@ -166,6 +184,8 @@ def equation(
 
 def equation_line(block: Block, attributes: Mapping[str, Any]) -> str:
     """Return the equation of motion of a survey of one block, as a line below a table with a row per record."""
+    if block.restrainer is not None:
+        return f"equation of motion: {SMALL_ANGLES}"
     full, by = attributes["model"] == "full", attributes.get("normalised_by", "angle")
     return f"equation of motion: {equation(*block.critical_angles, full=full, normalised_by=by)}"
 
@@ -194,15 +214,21 @@ def shape_warnings(
 
 
 def block_warnings(
-    block: Block | None, amplitudes: Any, restitutions: Any, *, full: bool = False
+    block: Block | None,
+    amplitudes: Any,
+    restitutions: Any,
+    *,
+    full: bool = False,
+    angle: float | None = None,
 ) -> list[str]:
-    """Return the warnings about the block itself, independent of its motion; none without a block."""
+    """Return the warnings about the block itself, up to an angle in rad, by default θcr; none without a block."""
     if block is None:
         return []
     from rocking.motion.model_warnings import block_warnings as sentences
 
     left = None if block.left is None else block.left_restitution
-    return list(sentences(block, amplitudes, float(np.min(restitutions)), left_restitution=left, full=full))
+    least = float(np.min(restitutions))
+    return list(sentences(block, amplitudes, least, angle, left_restitution=left, full=full))
 
 
 def warning_lines(sentences: Iterable[str]) -> list[str]:

@@ -13,13 +13,17 @@ import numpy as np
 from rocking.cli.options import InvalidInput, option
 from rocking.cli.output import Report, Row, Text
 from rocking.cli.reports import (
+    SMALL_ANGLES,
+    angle_symbol,
     angle_warning,
+    block_warnings,
     equation,
     in_si,
     input_rows,
     origin,
     reach,
     state_in_si,
+    time_unit,
     warning_lines,
 )
 from rocking.model.block import Block
@@ -203,9 +207,25 @@ def validity_lines(motion: Motion, block: Block | None, friction: float | None =
         return []
     return (
         str(assessed(motion, block, friction)).splitlines()
-        if motion.record == "all"
-        else warning_lines([unchecked(motion)])
+        if is_assessed(motion)
+        else warning_lines(unassessed(motion))
     )
+
+
+def is_assessed(motion: Motion) -> bool:
+    """Return whether a motion has a validity report: its events were kept, and the block has no restrainer."""
+    block = motion.system.block
+    return motion.record == "all" and (block is None or block.restrainer is None)
+
+
+def unassessed(motion: Motion) -> list[str]:
+    """Return the warnings of a motion without a validity report."""
+    block = motion.system.block
+    if block is None or block.restrainer is None:
+        return [unchecked(motion)]
+    reached = float(block.radians(min(motion.peak, 1.0)))
+    own = block_warnings(block, (), motion.system.restitution, angle=reached)
+    return ["sliding and jumping of a restrained block are not checked", *own]
 
 
 def unchecked(motion: Motion) -> str:
@@ -217,7 +237,7 @@ def unchecked(motion: Motion) -> str:
 
 def friction_row(motion: Motion, block: Block, friction: float | None) -> Iterator[Row]:
     """Yield the row of the friction required, with its time in s, if the events were kept."""
-    if motion.record != "all":
+    if not is_assessed(motion):
         return
     validity = assessed(motion, block, friction)
     if validity.friction is None or validity.friction_time is None:
@@ -233,13 +253,13 @@ def friction_row(motion: Motion, block: Block, friction: float | None) -> Iterat
 def validity_warnings(motion: Motion, block: Block, friction: float | None) -> list[str]:
     """Return the warnings of the validity report of a motion as lines."""
     return warning_lines(
-        list(assessed(motion, block, friction).warnings) if motion.record == "all" else [unchecked(motion)]
+        list(assessed(motion, block, friction).warnings) if is_assessed(motion) else unassessed(motion)
     )
 
 
 def validity_record(motion: Motion, block: Block, friction: float | None = None) -> dict[str, Any] | None:
-    """Return the validity report as a JSON object; None if the events were not kept."""
-    return attrs.asdict(assessed(motion, block, friction)) if motion.record == "all" else None
+    """Return the validity report as a JSON object; None if the events were not kept, or for a restrained block."""
+    return attrs.asdict(assessed(motion, block, friction)) if is_assessed(motion) else None
 
 
 def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
@@ -357,11 +377,17 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     yield "critical angle", f"{angles[0]}{sides}"
     full = motion.system.critical_angle is not None
     braced = motion.system.braces is not None
-    yield (
-        "equation of motion",
-        equation(*block.critical_angles, full=full, braced=braced, normalised_by=block.normalised_by),
-    )
-    yield "time unit 1/α", f"{block.seconds(1.0):.4g} s"
+    if block.restrainer is None:
+        by = block.normalised_by
+        yield (
+            "equation of motion",
+            equation(*block.critical_angles, full=full, braced=braced, normalised_by=by),
+        )
+    else:
+        yield "equation of motion", SMALL_ANGLES
+        balance = f"unstable balance at {float(block.degrees(1.0)):.4g}°"
+        yield "restrainer", f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}, {balance}"
+    yield time_unit(block), f"{block.seconds(1.0):.4g} s"
     yield "lift-off from rest", lift_off_text(motion.system, block)
     left = f" for θ > 0, {block.left_restitution:.6g} for θ < 0" if both else ""
     if block.wall is None:
@@ -391,7 +417,8 @@ def record_rows(motion: Motion, block: Block, friction: float | None) -> Iterato
     yield "impacts", counted_impacts(motion)
     if motion.overturning is None:
         side = "" if block.left is None or block.wall else " of θ > 0"
-        yield "largest |θ|", f"{reach(motion.peak, block)}, {motion.peak:.4g} θcr{side}"
+        unit = angle_symbol(block)
+        yield "largest |θ|", f"{reach(motion.peak, block)}, {motion.peak:.4g} {unit}{side}"
     yield margin_name(motion), margin_text(motion, block)
     yield from other_equation(motion)
     yield from friction_row(motion, block, friction)

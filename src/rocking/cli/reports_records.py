@@ -11,6 +11,7 @@ import numpy as np
 from rocking.cli.output import Report, Row, Table, Text, of_dataset
 from rocking.cli.reports import (
     MAX_ROWS,
+    angle_symbol,
     equation,
     equation_line,
     shape_warnings,
@@ -324,7 +325,7 @@ def limit_heading(result: Fragility, limit: float) -> str:
     return (
         limit_name(limit)
         if math.isinf(limit)
-        else f"|θ| > {result.block.degrees(limit):.3g}° = {limit:g} θcr"
+        else f"|θ| > {result.block.degrees(limit):.3g}° = {limit:g} {angle_symbol(result.block)}"
     )
 
 

@@ -105,7 +105,7 @@ def exponent_text(value: float, error: float | None, block: Block | None) -> tup
     if value == -math.inf:
         return "−∞ (superstable)", ""
     text = plus_minus(value, error) if error else f"{value:.6g}"
-    in_seconds = "" if block is None else f"{value * block.frequency_parameter:.4g} per s"
+    in_seconds = "" if block is None else f"{value * block.rate_unit:.4g} per s"
     return f"{text} per τ", in_seconds
 
 
@@ -159,7 +159,7 @@ def rate(spectrum: LyapunovSpectrum, number: int, block: Block | None) -> str:
 
 def per_second(spectrum: LyapunovSpectrum, block: Block) -> tuple[np.ndarray, np.ndarray]:
     """Return the exponents and their errors per second, each of shape (2,)."""
-    return spectrum.values * block.frequency_parameter, spectrum.errors * block.frequency_parameter
+    return spectrum.values * block.rate_unit, spectrum.errors * block.rate_unit
 
 
 LYAPUNOV = Report(exponents_text, table="cycles_direction")

@@ -12,8 +12,10 @@ from attrs import Factory, evolve, frozen
 from rocking.cli.options import (
     AMPLITUDES,
     AXIS_FORM,
+    MASS_CENTRE,
     NORMALISED,
     RANGE_FORM,
+    RESTRAINER,
     SI,
     STANDING,
     START,
@@ -28,10 +30,11 @@ from rocking.cli.options import (
     refusals,
 )
 from rocking.model.block import Block
-from rocking.model.block_formulas import with_unit
+from rocking.model.block_formulas import acceleration_unit_g, with_unit
 from rocking.model.forcing import Harmonic, Pulse
 from rocking.model.quantity import FRICTION, SYSTEM_QUANTITIES
 from rocking.model.restitution import Restitution
+from rocking.model.restrainer import Restrainer
 from rocking.model.system import NO_BRACES, Braces, State, System, Wall, normalisation_for
 from rocking.model.system import quantities as quantities_of
 from rocking.model.system import system_of as system_with
@@ -139,7 +142,7 @@ def system_of(options: Options) -> tuple[System, Block | None]:
         if "critical_angle" in options:
             raise InvalidInput("--critical-angle is normalised: with --height and --width give --model full")
     braces = braces_of(options)
-    with refusals({"kind": "--pulse"}):
+    with refusals({"kind": "--pulse", "stiffness": "--restrainer-stiffness"}):
         if normalised:
             block = None
             forcing = Harmonic(**select(options, *NORMALISED, "phase"))
@@ -238,16 +241,32 @@ def by_normalisation(block: Block | None, options: Options) -> Block | None:
 
 def unit_ratio(block: Block | None) -> float:
     """Return g θcr in units of the acceleration of a block; 1 for normalised input."""
-    return 1.0 if block is None else block.critical_angle / block.acceleration_unit_g
+    if block is None:
+        return 1.0
+    return block.critical_angle / acceleration_unit_g(block.critical_angle, block.normalised_by)
 
 
 def standing_of(options: Options) -> dict[str, Any]:
     """Return the arguments of a block that place its mass centre, state its inertia, and put it against a wall."""
-    given = select(options, *STANDING)
+    given = select(options, *MASS_CENTRE, "wall")
     if "wall" in given:
         with refusals({"restitution": option("wall")}):
             given["wall"] = Wall(given["wall"])
-    return given
+    return given | restrainer_of(options)
+
+
+def restrainer_of(options: Options) -> dict[str, Any]:
+    """Return the restrainer of the options as an argument of a block; none without its stiffness or its force."""
+    given = select(options, *RESTRAINER)
+    if not given:
+        return {}
+    require(options, (RESTRAINER[:2], ("mass",)), "--restrainer-stiffness and --mass")
+    if "friction" in options:
+        raise InvalidInput("--friction must be omitted for a restrained block, whose sliding is not checked")
+    names = {name.removeprefix("restrainer_"): option(name) for name in RESTRAINER}
+    with refusals(names):
+        values = {"restrainer_stiffness": 0.0, "restrainer_prestress": 0.0} | given
+        return {"restrainer": Restrainer(*(values[name] for name in RESTRAINER))}
 
 
 def braces_of(options: Options) -> Braces | None:

@@ -167,7 +167,7 @@ class Units:
         if name == "frequency":
             return 1.0 / float(self.block.seconds(self.period))
         if name == "exponent":
-            return self.block.frequency_parameter
+            return self.block.rate_unit
         of = parameter(name, self.block)[0] if name == "period" else getattr(units_of(self.block), name)
         return float(of(1.0))
 

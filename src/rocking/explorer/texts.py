@@ -38,7 +38,7 @@ def verdict(result: Verdict, block: Block | None) -> dict[str, Any]:
     if result.multipliers is not None:
         facts.append(("Floquet multipliers", _pair(*result.multipliers)))
     if result.exponent is not None:
-        rate, unit = (1.0, "τ") if block is None else (block.frequency_parameter, "s")
+        rate, unit = (1.0, "τ") if block is None else (block.rate_unit, "s")
         error = result.exponent_error and rate * result.exponent_error
         facts.append(("largest Lyapunov exponent λ₁", exponent(rate * result.exponent, error, unit)))
     facts.append(("simulated", counted(result.cycles, "cycle")))

@@ -23,8 +23,10 @@ from rocking.model.forcing import BaseMotion, Forcing, Harmonic
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, LEFT_RESTITUTION, SIZES
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, checked_law, law_of
+from rocking.model.restrainer import Restrainer, checked_restrainer
 from rocking.model.section import SYMMETRIC, section_of
 from rocking.model.system import (
+    MODELS,
     Braces,
     LeftSide,
     Side,
@@ -147,6 +149,8 @@ class Block(Dimensions):
     wall : Wall, optional
         Wall on the side θ < 0. Its coefficient of restitution is then that of all impacts, and the other ones have no effect.
         Default: none.
+    restrainer : Restrainer, optional
+        Elastic restrainer, as `restrained` sets it. Default: none.
 
     Raises
     ------
@@ -205,6 +209,7 @@ class Block(Dimensions):
     )
     _left_restitution: float | None = field(default=None, converter=checked_left_restitution, kw_only=True)
     wall: Wall | None = field(default=None, converter=checked_wall, kw_only=True)
+    restrainer: Restrainer | None = field(default=None, converter=checked_restrainer, kw_only=True)
 
     def __attrs_post_init__(self) -> None:
         self._check_mass_centre()
@@ -222,6 +227,18 @@ class Block(Dimensions):
                 )
             remedy = "are {height} and {width} swapped? If not, give {restitution}"
             raise Refusal("restitution", "lie in [0, 1]", Text(housner), remedy)
+        if self.restrainer is not None:
+            self._check_restrained(self.restrainer)
+
+    def _check_restrained(self, restrainer: Restrainer) -> None:
+        """Refuse a restrainer of a block whose sides differ, and one so stiff that a slender block has no unstable balance."""
+        allowed = "be omitted for a restrained block"
+        refuse_if(self.wall is not None, "wall", allowed, Text(str(self.wall)))
+        refuse_if(self.offset != 0, "offset", allowed, self.offset, "the restrainer is on its centre line")
+        refuse_if(not self.has_equal_sides, "left_restitution", allowed, self.left_restitution)
+        largest = restrainer.stiffness / self.stiffness_ratio if self.stiffness_ratio else math.inf
+        allowed = f"be below {largest:.6g} N/m, from where on a slender block has no unstable balance"
+        refuse_if(self.stiffness_ratio >= 1.0, "stiffness", allowed, restrainer.stiffness)
 
     def _check_mass_centre(self) -> None:
         """Refuse a mass centre that is not above the base, and an inertia that is stated twice or that no body has."""
@@ -317,8 +334,81 @@ class Block(Dimensions):
             radius_of_gyration=None if gyration is None else gyration * stretch,
             left_restitution=self._left_restitution,
             wall=self.wall,
+            restrainer=self.restrainer,
             normalised_by=self.normalised_by,
         )
+
+    def restrained(self, stiffness: float, prestress: float = 0.0, *, mass: float) -> Block:
+        """Return the block with a vertical elastic restrainer from the middle of its base to the ground.
+
+        Parameters
+        ----------
+        stiffness : float
+            Stiffness EA/L in N/m, with κ = (EA/L) b sin θcr/(Mg) below 1; b is half the width.
+        prestress : float
+            Force P₀ in N in the block at rest. Default: 0.
+        mass : float
+            Mass M of the block in kg.
+
+        Returns
+        -------
+        Block
+            Restrained block. Its normalised quantities are those of the free block that moves as it does.
+
+        Raises
+        ------
+        TypeError
+            If a value is not a real number.
+        ValueError
+            If a value lies outside its range, if κ is 1 or more, or if the block has an offset, unequal sides or a wall. With
+            κ = 1 or more a slender block has no unstable balance: no base motion of finite length overturns it.
+
+        Notes
+        -----
+        With ρ = P₀/(Mg), the slender block obeys θ'' = α²[(1 − κ)θ ∓ (1 + ρ)θcr − a], with − for θ > 0, + for θ < 0 and the base
+        acceleration a in units of g. With Θ = θ(1 − κ)/((1 + ρ)θcr), τ = α√(1 − κ)t and A = a/((1 + ρ)θcr) this is Yim & Lin's
+        Eq. (4), and Housner's restitution is unchanged. So all conversions of the block use these units, and everything that
+        holds for the free slender block holds for the restrained one. |Θ| = 1 is the unstable balance.
+
+        Examples
+        --------
+        >>> block = Block(height=2.0, width=0.4)
+        >>> restrained = block.restrained(stiffness=9e4, prestress=1200.0, mass=600.0)
+        >>> round(restrained.stiffness_ratio, 4), round(restrained.prestress_ratio, 4)
+        (0.6, 0.2039)
+        >>> round(float(restrained.degrees(1.0) / block.degrees(1.0)), 4)
+        3.01
+        """
+        return evolve(self, restrainer=Restrainer(stiffness, prestress, mass))
+
+    @property
+    def stiffness_ratio(self) -> float:
+        """Ratio κ = (EA/L) b sin θcr/(Mg) of the stiffness of the restrainer to that of gravity; 0 without one."""
+        if self.restrainer is None:
+            return 0.0
+        lever = self.edges[0] * math.sin(self.critical_angle)
+        return self.restrainer.stiffness * lever / (self.restrainer.mass * GRAVITY)
+
+    @property
+    def prestress_ratio(self) -> float:
+        """Ratio ρ = P₀/(Mg) of the force of the restrainer at rest to the weight; 0 without one."""
+        return (
+            0.0 if self.restrainer is None else self.restrainer.prestress / (self.restrainer.mass * GRAVITY)
+        )
+
+    @property
+    def angle_unit(self) -> float:
+        """Angle of the unstable balance in radians, the unit of normalised angles: θcr, with a restrainer θcr(1 + ρ)/(1 − κ)."""
+        if self.restrainer is None:
+            return self.critical_angle
+        return self.critical_angle * (1.0 + self.prestress_ratio) / (1.0 - self.stiffness_ratio)
+
+    @property
+    def rate_unit(self) -> float:
+        """Inverse of the unit of time in 1/s: α, with a restrainer α√(1 − κ)."""
+        if self.restrainer is None:
+            return self.frequency_parameter
+        return self.frequency_parameter * math.sqrt(1.0 - self.stiffness_ratio)
 
     @property
     def size(self) -> str:
@@ -528,6 +618,7 @@ class Block(Dimensions):
             )
             got = Text(f"braces at {braces.angle:g}")
             raise WrongType("braces", f"be omitted for a block {what}", got, remedy)
+        check_restrained_model(block, model)
         angle = critical_angle_for(model, self.critical_angle, self.width)
         critical_angle_for(model, self.critical_angles[1], self.width)
         check_model(block.law, model)
@@ -539,7 +630,7 @@ class Block(Dimensions):
             raise WrongType(values[0], "be omitted with {base}")
         if isinstance(base, GroundMotion) and base.vertical:
             warn_of_value(vertical_sentence([base.component]))
-        scales = own.acceleration(1.0), self.frequency_parameter
+        scales = own.acceleration(1.0), self.rate_unit
         forcing = instance("base", base, BaseMotion).normalised(*scales)
         scatter = block.law.scatter
         if scatter is not None and isinstance(base, GroundMotion):
@@ -571,7 +662,7 @@ class Block(Dimensions):
         size, per_unit, unit = {
             "acceleration": (acceleration, 1.0, "m/s²"),
             "acceleration_g": (acceleration_g, GRAVITY, "g"),
-            "displacement": (displacement, (frequency * self.frequency_parameter) ** 2, "m"),
+            "displacement": (displacement, (frequency * self.rate_unit) ** 2, "m"),
         }[values]
         largest = self.acceleration(AMPLITUDE.range[1]) / per_unit
         amplitude = self.amplitude(within(values, size, 0, largest, unit) * per_unit)  # type: ignore[arg-type]
@@ -585,8 +676,9 @@ class Block(Dimensions):
 
     @property
     def acceleration_unit_g(self) -> float:
-        """Base acceleration in g that is 1 if it is normalised: θcr or tan θcr, as `normalised_by` says."""
-        return acceleration_unit_g(self.critical_angle, self.normalised_by)
+        """Base acceleration in g that is 1 if it is normalised: θcr or tan θcr, as `normalised_by` says, times 1 + ρ."""
+        unit = acceleration_unit_g(self.critical_angle, self.normalised_by)
+        return unit if self.restrainer is None else unit * (1.0 + self.prestress_ratio)
 
     def acceleration(self, amplitude: Any) -> Any:
         """Base acceleration a_x in m/s², from a normalised amplitude A: A g θcr or A g tan θcr, as `normalised_by` says."""
@@ -598,23 +690,23 @@ class Block(Dimensions):
 
     def seconds(self, time: Any) -> Any:
         """Time t = τ/α in seconds, from a normalised time or period."""
-        return reals("time", time) / self.frequency_parameter
+        return reals("time", time) / self.rate_unit
 
     def time(self, seconds: Any) -> Any:
         """Normalised time τ = αt, from a time or period in seconds."""
-        return reals("seconds", seconds) * self.frequency_parameter
+        return reals("seconds", seconds) * self.rate_unit
 
     def hertz(self, frequency: Any) -> Any:
         """Frequency Ωα/2π in Hz, from a normalised angular frequency Ω."""
-        return reals("frequency", frequency) * (self.frequency_parameter / math.tau)
+        return reals("frequency", frequency) * (self.rate_unit / math.tau)
 
     def frequency(self, hertz: Any) -> Any:
         """Normalised angular frequency Ω = ω/α, from a frequency in Hz."""
-        return reals("hertz", hertz) / (self.frequency_parameter / math.tau)
+        return reals("hertz", hertz) / (self.rate_unit / math.tau)
 
     def radians(self, angle: Any) -> Any:
         """Angle θ = Θ θcr in radians, from a normalised angle Θ."""
-        return reals("angle", angle) * self.critical_angle
+        return reals("angle", angle) * self.angle_unit
 
     def degrees(self, angle: Any) -> Any:
         """Angle θ = Θ θcr in degrees, from a normalised angle Θ."""
@@ -622,17 +714,15 @@ class Block(Dimensions):
 
     def radians_per_second(self, velocity: Any) -> Any:
         """Angular velocity dθ/dt = Θ' θcr α in rad/s, from a normalised velocity Θ'."""
-        return reals("velocity", velocity) * (self.critical_angle * self.frequency_parameter)
+        return reals("velocity", velocity) * (self.angle_unit * self.rate_unit)
 
     def velocity(self, radians_per_second: Any) -> Any:
         """Normalised velocity Θ', from an angular velocity in rad/s."""
-        return reals("radians_per_second", radians_per_second) / (
-            self.critical_angle * self.frequency_parameter
-        )
+        return reals("radians_per_second", radians_per_second) / (self.angle_unit * self.rate_unit)
 
     def top_displacement(self, angle: Any) -> Any:
         """Displacement H sin θ along the base of the top corner above the pivot, in metres, from a normalised angle."""
-        return self.height * np.sin(reals("angle", angle, MAX_REAL) * self.critical_angle)
+        return self.height * np.sin(reals("angle", angle, MAX_REAL) * self.angle_unit)
 
     def angle(self, *, radians: Any = None, degrees: Any = None, top_displacement: Any = None) -> Any:
         """Normalised angle Θ = θ/θcr, from exactly one physical quantity.
@@ -664,14 +754,14 @@ class Block(Dimensions):
         """
         values = exactly_one(radians=radians, degrees=degrees, top_displacement=top_displacement)
         if values == "radians":
-            return reals(values, radians) / self.critical_angle
+            return reals(values, radians) / self.angle_unit
         if values == "degrees":
-            return np.radians(reals(values, degrees)) / self.critical_angle
+            return np.radians(reals(values, degrees)) / self.angle_unit
         sine = reals(values, top_displacement) / self.height
         if np.any(np.abs(sine) > 1):
             allowed = f"lie in [-{self.height:g}, {self.height:g}] m, the height"
             raise Refusal(values, allowed, top_displacement)
-        return np.arcsin(sine) / self.critical_angle
+        return np.arcsin(sine) / self.angle_unit
 
     def __repr__(self) -> str:
         law = self.law
@@ -687,7 +777,23 @@ class Block(Dimensions):
             given = self.offset or None if name == "offset" else getattr(self, f"_{name}")
             values += "" if given is None else f", {name}={given:.6g} m"
         values += "" if self.wall is None else ", against a wall"
+        if self.restrainer is not None:
+            values += f", restrained with κ={self.stiffness_ratio:.6g}, ρ={self.prestress_ratio:.6g}"
         return f"Block(height={self.height} m, width={self.width} m, {values})"
+
+
+def check_restrained_model(block: Block, model: str) -> None:
+    """Raise ValueError for the full equation of motion of a restrained block."""
+    full = one_of("model", model, MODELS) == "full"
+    refuse_if(block.restrainer is not None and full, "model", "be 'slender' for a restrained block", model)
+
+
+def restrainer_quantities(block: Block, model: str) -> dict[str, float]:
+    """Return the ratios of a restrained block in a survey, none of a free one; ValueError for the full equation of motion."""
+    check_restrained_model(block, model)
+    if block.restrainer is None:
+        return {}
+    return {"stiffness_ratio": block.stiffness_ratio, "prestress_ratio": block.prestress_ratio}
 
 
 def symmetric_block(block: Any, name: str = "block") -> Block:
@@ -696,6 +802,12 @@ def symmetric_block(block: Any, name: str = "block") -> Block:
     remedy = "the formula holds for equal sides"
     got = "one against a wall" if isinstance(left, Wall) else f"one with {{offset}} {block.offset:g} m"
     refuse_if(left is not None, name, "be symmetric", Text(got), remedy)
+    return unrestrained(block, name, "the formula holds without a restrainer")
+
+
+def unrestrained(block: Block, name: str, reason: str) -> Block:
+    """Return a block, after checking that it has no restrainer; ValueError with the reason if it has one."""
+    refuse_if(block.restrainer is not None, name, "have no restrainer", block, reason)
     return block
 
 
@@ -712,6 +824,15 @@ def block_attributes(block: Block) -> dict[str, Any]:
         }
     )
     wall = {} if block.wall is None else {"block_wall_restitution": block.wall.restitution}
+    restrainer = (
+        {}
+        if block.restrainer is None
+        else {
+            "block_restrainer_stiffness_n_per_m": block.restrainer.stiffness,
+            "block_restrainer_prestress_n": block.restrainer.prestress,
+            "block_mass_kg": block.restrainer.mass,
+        }
+    )
     centre = {} if block.centre_height == block.height / 2 else {"block_centre_height_m": block.centre_height}
     return {
         **by,
@@ -723,4 +844,5 @@ def block_attributes(block: Block) -> dict[str, Any]:
         **unsymmetric,
         **centre,
         **wall,
+        **restrainer,
     }

@@ -149,7 +149,7 @@ def _seconds(block: Any, time: Any) -> Any:
 
 
 def _per_second(block: Any, rate: Any) -> Any:
-    return rate * block.frequency_parameter
+    return rate * block.rate_unit
 
 
 ACCELERATION = SI(
@@ -307,6 +307,12 @@ WALL_RESTITUTION = Quantity(
     label=r"coefficient of restitution of the wall $e_\mathrm{w}$",
     help="Coefficient of restitution of impacts against a wall on the side θ < 0. Default: no wall.",
 )
+STIFFNESS_RATIO = Quantity(
+    "stiffness_ratio", "κ", "stiffness of the restrainer over that of gravity", (0.0, 1.0)
+)
+PRESTRESS_RATIO = Quantity(
+    "prestress_ratio", "ρ", "force of the restrainer at rest over the weight", (0.0, 1e6)
+)
 FRICTION = Quantity(
     "friction",
     "μ",
@@ -348,9 +354,11 @@ RUN_QUANTITIES = {
     for each in (
         *(SIZE, SLENDERNESS, RESTITUTION, ANGLE, POLARITY, LEVEL),
         *(ANGLE_RATIO, FREQUENCY_RATIO, LEFT_RESTITUTION, WALL_RESTITUTION),
+        *(STIFFNESS_RATIO, PRESTRESS_RATIO),
     )
 }
-"""Quantities of runs under ground motions, in the order of the dimensions; records come first. The last are of blocks with a left side."""
+"""Quantities of runs under ground motions, in the order of the dimensions; records come first. The last are of blocks with a left side,
+and of restrained ones."""
 
 
 def _like(si: SI, name: str) -> SI:
@@ -361,7 +369,7 @@ def _like(si: SI, name: str) -> SI:
 
 
 def _turn(block: Any, acceleration: Any) -> Any:
-    return acceleration * (block.radians_per_second(1.0) * block.frequency_parameter)
+    return acceleration * (block.radians_per_second(1.0) * block.rate_unit)
 
 
 def _cycles_per_second(block: Any, frequency: Any) -> Any:

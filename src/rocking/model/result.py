@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html as markup
+import re
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
@@ -56,9 +57,15 @@ def in_units_of(own: Any, block: Block) -> Block:
     return block if own is None else with_unit(block, own.normalised_by)
 
 
-def _with_tangent(text: str) -> str:
-    """Return a description or a heading with the other unit of acceleration."""
-    return text.replace("g theta_cr", "g tan theta_cr")
+def with_own_units(text: str, block: Block) -> str:
+    """Return a description or a heading with the units of a block: its acceleration, and the unstable balance of a restrained one."""
+    if block.normalised_by == "tangent":
+        text = text.replace("g theta_cr", "g tan theta_cr")
+    if block.restrainer is None:
+        return text
+    text = re.sub(r"g (tan )?theta_cr", r"(1 + rho) g \1#", text)
+    text = re.sub(r"\balpha\b", "alpha_u", text.replace("theta_cr", "theta_u"))
+    return text.replace("#", "theta_cr")
 
 
 def html(draw: Callable[[], Any], line: str) -> str:
@@ -125,16 +132,15 @@ class Result:
         data = self._with_sizes(data, block)
         data = data.copy(deep=False) if chosen is None else in_si(data, chosen, self.QUANTITIES)
         data.attrs = dict(_plain(data.attrs))
-        if chosen is None and self._by_tangent:
+        if chosen is None and self.block is not None and self.block.restrainer is not None:
+            data.attrs |= {"comment": with_own_units(data.attrs.get("comment", ""), self.block)}
+        if chosen is None and self.block is not None:
             for each in data.variables.values():
                 if "long_name" in each.attrs:
-                    each.attrs = each.attrs | {"long_name": _with_tangent(each.attrs["long_name"])}
+                    each.attrs = each.attrs | {
+                        "long_name": with_own_units(each.attrs["long_name"], self.block)
+                    }
         return data
-
-    @property
-    def _by_tangent(self) -> bool:
-        """Flag: normalised base accelerations are in units of g tan θcr."""
-        return self.block is not None and self.block.normalised_by == "tangent"
 
     def to_xarray(self, *, units: str | None = None, block: Any = None) -> xr.Dataset:
         """Return the result as a dataset, with units.
@@ -228,10 +234,11 @@ class Result:
         """
         chosen = self._block(units, block)
         tables = tables_of(self._data_for(chosen), self.QUANTITIES, chosen)
-        if chosen is not None or not self._by_tangent:
+        own = self.block
+        if chosen is not None or own is None:
             return tables
         return {
-            name: {_with_tangent(key): column for key, column in each.items()}
+            name: {with_own_units(key, own): column for key, column in each.items()}
             for name, each in tables.items()
         }
 

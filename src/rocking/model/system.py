@@ -44,6 +44,7 @@ NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
 MAX_STATE = 1e300
 MAX_USUAL_ANGLE = 2.0
 """Largest |Θ| of a state or brace without a warning: a block that still moves is often somewhat beyond 1."""
+RESTRAINED = "be omitted for a restrained block"
 FORCINGS = "make one: rk.Harmonic(amplitude=2.0, period=1.0) or rk.PiecewiseLinear([0.0, 2.0, 0.0], step=0.1)"
 
 
@@ -298,6 +299,8 @@ class System:
         """Refuse a table for the slender block, and braces that a full block reaches only when it lies flat."""
         self._check_left()
         if self.block is not None:
+            restrained = self.block.restrainer is not None
+            refuse_if(restrained and self.braces is not None, "braces", RESTRAINED, Text(str(self.braces)))
             object.__setattr__(self, "block", self._fitting(self.block))
         if self.critical_angle is None:
             allowed = "be omitted for a slender block"
@@ -360,6 +363,8 @@ class System:
             (1.0, 1.0) if each is None else (each.angle_ratio, each.frequency_ratio) for each in (own, other)
         ]
         if self.critical_angle not in (None, block.critical_angle) or ratios[0] != ratios[1]:
+            return None
+        if self.critical_angle is not None and block.restrainer is not None:
             return None
         if self.critical_angle is not None or isinstance(self.forcing, Harmonic):
             block = with_unit(block, "angle")

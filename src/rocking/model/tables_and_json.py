@@ -37,6 +37,7 @@ FIXED = (
     ),
     *("phase", "angle", "velocity"),
     *("angle_ratio", "frequency_ratio", "left_restitution", "wall_restitution"),
+    *("stiffness_ratio", "prestress_ratio"),
 )
 """Quantities of a system in the order of the columns of a table."""
 RESULT = "result"

@@ -37,7 +37,7 @@ def block_warnings(
     restitution : float
         Smallest coefficient of restitution in use; 1 without impacts. Default: 1.
     angle : float, optional
-        Largest |θ| in radians. Default: θcr.
+        Largest |θ| in radians. Default: θcr, of a restrained block its unstable balance.
     left_restitution : float, optional
         Smallest coefficient of restitution of impacts from the side θ < 0; `restitution` is then that of the others. Default:
         `restitution`.
@@ -52,7 +52,9 @@ def block_warnings(
     yield from height_warnings(block.height)
     if not full:
         right, left = block.critical_angles
-        reached = max(right, left) if angle is None else angle
+        reached = angle
+        if angle is None:
+            reached = max(right, left) if block.restrainer is None else block.angle_unit
         yield from proportion_warnings(right, reached, block.normalised_by, left)
         if block.normalised_by == "angle":
             yield from _lifting(block, np.atleast_1d(amplitudes))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rocking.kernels import system as numbers
 from rocking.kernels.motion import finite_motion as finite_runs
 from rocking.kernels.motion import march
-from rocking.model.block import Block
+from rocking.model.block import Block, unrestrained
 from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
 from rocking.model.result import in_units_of
 from rocking.model.validation import Refusal, Text, instance, refuse_if
@@ -203,6 +203,8 @@ def validity(
     True
     """
     block = in_units_of(motion.system.block, instance("block", block, Block))
+    for each in (block, motion.system.block or block):
+        unrestrained(each, "block", "the force of a restrainer is not in the base reactions")
     if motion.system.wall is not None:
         block = evolve(block, wall=motion.system.wall)
     check_sides(motion.system, block)
@@ -293,7 +295,7 @@ def check_sides(system: System, block: Block) -> None:
 
 def other_system(system: System, block: Block) -> System:
     """Return the system of the other equation under the same base motion: full, or slender with a/(g tan θcr)."""
-    angle = block.critical_angle
+    angle = unrestrained(block, "block", "it has one equation of motion").critical_angle
     own = block.acceleration_unit_g if system.critical_angle is None else angle
     other = angle if system.critical_angle is None else math.tan(angle)
     forcing = system.forcing

@@ -119,4 +119,5 @@ def limit_label(limit: float, block: Block) -> str:
     """Return the event of exceeding a limit of |Θ|, in degrees."""
     if math.isinf(limit):
         return "overturning"
-    return rf"$|\theta| > {block.degrees(limit):.3g}°$ (${limit:.3g}\,\theta_\mathrm{{cr}}$)"
+    unit = r"\theta_\mathrm{cr}" if block.restrainer is None else r"\theta_\mathrm{u}"
+    return rf"$|\theta| > {block.degrees(limit):.3g}°$ (${limit:.3g}\,{unit}$)"

@@ -80,6 +80,11 @@ class Scene:
         self.centre = Line2D(*self.centres[:1].T, marker="o", color=style.MOTION, markersize=6)
         if block.left is not None and block.wall is None:
             self.parts.append(self.centre)
+        feet = self.outlines[:, :2].mean(axis=1)
+        self.restrainers = np.stack([np.zeros_like(feet) - (0.0, deep), feet], axis=1)
+        self.restrainer = restrainer_of(*self.restrainers[0])
+        if block.restrainer is not None:
+            self.parts.append(self.restrainer)
         for part in self.parts:
             ax.add_artist(part)
             part.set_transform(self.shift + ax.transData)
@@ -96,6 +101,7 @@ class Scene:
         self.shift.clear().translate(self.base[frame], 0.0)
         self.body.set_xy(self.outlines[frame])
         self.centre.set_data(*self.centres[frame : frame + 1].T)
+        self.restrainer.set_data(*self.restrainers[frame].T)
         return self.parts
 
 
@@ -113,6 +119,11 @@ def wall_of(block: Block) -> Rectangle:
         linewidth=style.THIN,
         gid="wall",
     )
+
+
+def restrainer_of(anchor: NDArray, foot: NDArray) -> Line2D:
+    """Return the restrainer between its anchor in the base and the middle of the foot of a block, (x, y) in m each."""
+    return Line2D(*np.array([anchor, foot]).T, color=style.BRACE, linewidth=2 * style.LINE, gid="restrainer")
 
 
 def _ground(ax: Axes, deep: float, far: float) -> None:
@@ -279,6 +290,8 @@ def schematic(ax: Axes | None = None, block: Block | None = None, *, lean: float
     ax.add_patch(
         Polygon(tilted, facecolor=style.BLOCK, edgecolor=style.INK, linewidth=style.LINE, gid="block")
     )
+    if block.restrainer is not None:
+        ax.add_line(restrainer_of(np.array([0.0, -0.16 * height]), tilted[:2].mean(axis=0)))
     _sides(ax, tilted, height)
     both = block.left is not None and block.wall is None
     _centre(ax, tilted, mass_centre(block, tilted), height, both=both)

@@ -120,7 +120,7 @@ def base_displacement(forcing: Forcing, block: Block, times: NDArray) -> tuple[N
         return -stretch * forcing.acceleration(times), forcing.amplitude * stretch, None
     if not isinstance(forcing, (PiecewiseLinear, Pulse)):
         raise TypeError(f"the displacement of a base moved by {type(forcing).__name__} is not known")
-    stretch = block.acceleration(1.0) / block.frequency_parameter**2
+    stretch = block.acceleration(1.0) / block.rate_unit**2
     moved = stretch * forcing.displacement(times)
     return moved, float(np.abs(moved).max()), float(stretch * forcing.displacement(forcing.span))
 
@@ -268,7 +268,9 @@ def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right:
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
         left = 1.0 if system.left is None or system.wall else system.left.angle_ratio
-        levels, colour, dashes, name = (left, 1.0), style.GUIDE, "dotted", "critical angle"
+        restrained = system.block is not None and system.block.restrainer is not None
+        name = "unstable balance" if restrained else "critical angle"
+        levels, colour, dashes = (left, 1.0), style.GUIDE, "dotted"
     else:
         levels, colour, dashes, name = (system.braces.angle,) * 2, style.BRACE, "dashed", "braces"
     if largest > 0.5 * min(levels):

@@ -195,7 +195,7 @@ class LyapunovSpectrum(ReadOnlyArrays, Result):
         over = f"over {counted(self.cycles, 'cycle')} after {self.transient:,}"
         if self.superstable:
             return f"λ = −∞, −∞ {over}: superstable, perturbations vanish at rest or in contact with a brace"
-        rate, unit = (1.0, "τ") if self.block is None else (self.block.frequency_parameter, "s")
+        rate, unit = (1.0, "τ") if self.block is None else (self.block.rate_unit, "s")
         one, two = (plus_minus(*pair) for pair in zip(rate * self.values, rate * self.errors, strict=True))
         return f"λ = {one}, {two} per {unit} {over}" + (
             "; errors are bounds, not standard errors" if self.bounded else ""

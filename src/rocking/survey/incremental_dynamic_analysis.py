@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model.block import Block, block_attributes
+from rocking.model.block import Block, block_attributes, restrainer_quantities
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_results import IncrementalDynamicAnalysis
 from rocking.model.record_set import RecordSet, both_ways, record_set
@@ -147,6 +147,7 @@ def block_spec(
             "polarity": polarity,
             "level": levels,
             **left_quantities(block.left),
+            **restrainer_quantities(block, model),
         },
         intensity=intensity,
         inertia_ratio=block.inertia_ratio,

@@ -198,12 +198,12 @@ def switches_below(steps: Steps, options: Mapping[str, int], stop: np.ndarray) -
 def runs_of(spec: SwitchSpec, number: int, stop: np.ndarray) -> Run:
     """Return the function that follows a block under a motion at n levels; the motion's tables are made once."""
     block, motion = spec.block, spec.motions[number]
-    alpha, slenderness = block.frequency_parameter, block.critical_angle
+    alpha, slenderness, rate = block.frequency_parameter, block.critical_angle, block.rate_unit
     left = left_of(
         {name: np.array([value]) for name, value in spec.fixed.items()}, np.array([block.restitution])
     )
     law = np.array(spec.law.rows).reshape(-1, 2)
-    p = sampled(motion.normalised(1.0, alpha), full=spec.full, left=left, law=law, scatter=spec.law.scatter)
+    p = sampled(motion.normalised(1.0, rate), full=spec.full, left=left, law=law, scatter=spec.law.scatter)
     restitution = law[:, 1].max() if spec.law.rows else block.restitution
     stream = spec.streams(np.array([number]), np.zeros(1, np.int64))
     unit = with_unit(block, spec.normalised_by).acceleration(1.0)
@@ -224,7 +224,7 @@ def runs_of(spec: SwitchSpec, number: int, stop: np.ndarray) -> Run:
         inputs["scale"] = polarity * (motion.factor * factors) / unit
         inputs["restitution"], inputs["angle"] = restitution, spec.fixed["angle"]
         inputs["critical_angle"] = slenderness
-        inputs["speed_unit"], inputs["stream"] = slenderness * alpha, stream
+        inputs["speed_unit"], inputs["stream"] = block.angle_unit * rate, stream
         give_sides(inputs, left)
         if not finite_motion.run_batch(p, inputs, False, rows, stop):
             raise CancelledError("the survey was stopped")

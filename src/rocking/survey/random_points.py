@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 from attrs import evolve, field, frozen
 
-from rocking.model.block import Block
+from rocking.model.block import Block, unrestrained
 from rocking.model.block_formulas import frequency_parameter
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.progress import Bar
@@ -200,6 +200,7 @@ def block_samples(
     width are lognormal, and the offset of the mass centre is in proportion to the width. The restitution is uniform about the
     nominal value, or about Housner's value of the sample, with the same deviation for impacts in both directions.
     """
+    unrestrained(block, "block", "an uncertain block has no certain stiffness ratio")
     return np.array([_of_record(motion, block, samples, spreads, seed) for motion in records])
 
 

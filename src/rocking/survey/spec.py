@@ -397,7 +397,7 @@ def _within_a_turn(phases: np.ndarray) -> np.ndarray:
     return np.array([numbers.within_a_turn(phase) for phase in distinct.tolist()])[places]
 
 
-OPTIONAL = ("restitution", *LEFT_QUANTITIES, "wall_restitution")
+OPTIONAL = ("restitution", *LEFT_QUANTITIES, "wall_restitution", "stiffness_ratio", "prestress_ratio")
 """Quantities of runs that may be omitted."""
 SLENDERNESSES = 1e-4, 1.57
 """Range of the critical angle, rad."""
@@ -450,7 +450,6 @@ class MotionSpec(SurveySpec):
     intensity measure.
     """
 
-    comment = "A peak is in units of the critical angle; impacts of chattering sequences do not count."
     contiguous = True
     numbers: ClassVar[dict[str, str]] = {"record": "number of the record, from 0"}
 
@@ -463,6 +462,12 @@ class MotionSpec(SurveySpec):
     worse: bool = field(default=False, kw_only=True)
     """Flag: each run is the worse one of the motion and its reverse. The polarity is then 1."""
     law: Restitution = field(kw_only=True)
+
+    @property
+    def comment(self) -> str:  # type: ignore[override]
+        """Unit of a peak, and what does not count."""
+        unit = "angle of unstable balance" if "stiffness_ratio" in self.fixed else "critical angle"
+        return f"A peak is in units of the {unit}; impacts of chattering sequences do not count."
 
     @property
     def full(self) -> bool:
@@ -501,11 +506,14 @@ class MotionSpec(SurveySpec):
             restitution = np.full(record.size, max(kept for _, kept in self.law.rows))
         own = np.array([self.intensities[number] for number in record.tolist()])
         factor = self.measure.factor(arguments["level"], own, alpha, slenderness)
+        factor = factor * arguments["polarity"] / self.acceleration_units(slenderness)
+        if "stiffness_ratio" in arguments:
+            alpha, slenderness = self.restrained(alpha, slenderness)
         return Runs(
             self.motions,
             record,
             alpha,
-            factor * arguments["polarity"] / self.acceleration_units(slenderness),
+            factor,
             restitution,
             arguments["angle"],
             slenderness,
@@ -519,7 +527,13 @@ class MotionSpec(SurveySpec):
 
     def acceleration_units(self, slenderness: np.ndarray) -> np.ndarray:
         """Return the base accelerations in m/s² that are 1 if they are normalised, for critical angles in rad."""
-        return GRAVITY * _each(acceleration_unit_g, slenderness, self.normalised_by)
+        units = GRAVITY * _each(acceleration_unit_g, slenderness, self.normalised_by)
+        return units * (1.0 + self.fixed["prestress_ratio"]) if "prestress_ratio" in self.fixed else units
+
+    def restrained(self, alpha: np.ndarray, slenderness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the inverse unit of time and the unit of angles of restrained blocks, from those of the free ones."""
+        kappa, rho = self.fixed["stiffness_ratio"], self.fixed["prestress_ratio"]
+        return alpha * math.sqrt(1.0 - kappa), slenderness * (1.0 + rho) / (1.0 - kappa)
 
     def streams(self, record: np.ndarray, sample: np.ndarray) -> np.ndarray:
         """Return the numbers (n,) of the sequences of deviations: one for each record and sample, at all levels alike."""

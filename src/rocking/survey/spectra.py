@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model.block import RECTANGLE, Block
+from rocking.model.block import RECTANGLE, Block, unrestrained
 from rocking.model.block_formulas import frequency_parameter
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import RecordSet, record_set
@@ -125,6 +125,7 @@ def rocking_spectrum(
         restitution = law.value if isinstance(restitution, Restitution) else restitution
     sizes = {"size": size, "slenderness": slenderness, "restitution": restitution}
     if block is not None:
+        unrestrained(block, "block", "a stiffness in N/m is for one size")
         given = {name: value for name, value in sizes.items() if value is not None}
         sizes = quantities_of_block(block) | given
         _check_shape(block, slenderness=slenderness, restitution=own_law, inertia_ratio=inertia_ratio)
