@@ -85,9 +85,9 @@ def special(kind, wanted="symmetry-breaking"):
 
 def saddle(kind):
     """Return an unstable orbit of a block that has one with impacts, else the stable one."""
-    if kind != "slender":
+    if kind not in ("slender", "slender, restrained"):
         return orbit(kind)
-    system = rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925)
+    system = of(kind, forcing=rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925)
     return next(each for each in rk.find_orbits(system, 3) if abs(each.multipliers[0]) > 1 and each.impacts)
 
 
