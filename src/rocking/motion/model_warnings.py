@@ -52,10 +52,8 @@ def block_warnings(
     yield from height_warnings(block.height)
     if not full:
         right, left = block.critical_angles
-        reached = angle
-        if angle is None:
-            reached = max(right, left) if block.restrainer is None else block.angle_unit
-        yield from proportion_warnings(right, reached, block.normalised_by, left)
+        balance = max(right, left) if block.restrainer is None else block.angle_unit
+        yield from proportion_warnings(right, balance if angle is None else angle, block.normalised_by, left)
         if block.normalised_by == "angle":
             yield from _lifting(block, np.atleast_1d(amplitudes))
     yield from impact_warnings(block, restitution, left_restitution)
