@@ -153,6 +153,7 @@ ALLOWED = {
 }  # fmt: skip
 METHODS = {
     "Block.angle": {"degrees": 5.0},
+    "Block.restrained": {"stiffness": 2e4, "mass": 600.0},
     "GroundMotion.rotated": {"other": GROUND, "angle": 0.5},
     "Block.system": {"acceleration": 3.0, "frequency_hz": 1.2},
     "Orbit.motion": {"cycles": 2},
