@@ -8,7 +8,8 @@ from typing import NamedTuple
 from rocking.records.text_file import NUMBER, ROW, Channel, TextFile, in_plain_numbers
 from rocking.records.units import header_units
 
-NAMED = re.compile(r"\bNPTS\s*=\s*([^,;\s]+)[\s,;]*DT\s*=\s*([^,;\s]+)", re.IGNORECASE)
+NAMED = re.compile(r"\bNPTS\s*=\s*([^,;\s]{1,40})[\s,;]*DT\s*=\s*([^,;\s]+)", re.IGNORECASE)
+COUNT = re.compile(r"[0-9]{1,12}")
 HEADER_LINES = 100
 FEWEST = 10
 """Whole numbers below it are samples, not numbers of samples."""
@@ -76,4 +77,4 @@ def _unnamed(file: TextFile, first: int) -> _Counts | None:
 
 
 def _is_count(text: str) -> bool:
-    return text.isdigit() and int(text) >= FEWEST
+    return COUNT.fullmatch(text) is not None and int(text) >= FEWEST
