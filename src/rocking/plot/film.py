@@ -292,7 +292,7 @@ def schematic(ax: Axes | None = None, block: Block | None = None, *, lean: float
     )
     if block.restrainer is not None:
         ax.add_line(restrainer_of(np.array([0.0, -0.16 * height]), tilted[:2].mean(axis=0)))
-    _sides(ax, tilted, height)
+    _sides(ax, tilted, height, right=block.wall is not None)
     both = block.left is not None and block.wall is None
     _centre(ax, tilted, mass_centre(block, tilted), height, both=both)
     _angles(ax, tilted, height, block, angle)
@@ -314,12 +314,13 @@ def _base(ax: Axes, height: float, width: float) -> None:
     _write(ax, r"$a_g = a_x \cos(\omega t + \varphi)$", (0.0, -2.1 * deep), SHAKEN)
 
 
-def _sides(ax: Axes, tilted: NDArray, height: float) -> None:
-    """Draw the dimension lines: H along the left side of the block, B above its top."""
+def _sides(ax: Axes, tilted: NDArray, height: float, *, right: bool) -> None:
+    """Draw the dimension lines: H along the left or the right side of the block, B above its top."""
     foot_left, foot_right, top_right, top_left = tilted
     gap = 0.08 * height
+    side = (foot_right, top_right, foot_left) if right else (foot_left, top_left, foot_right)
     for first, last, opposite, name in (
-        (foot_left, top_left, foot_right, "$H$"),
+        (*side, "$H$"),
         (top_left, top_right, foot_left, "$B$"),
     ):
         outward = (first - opposite) / np.linalg.norm(first - opposite)
