@@ -266,6 +266,26 @@ def acceleration_of(p, drive):
 
 
 @contract
+def weight_of(p, drive):
+    """Return the weight of the block relative to that on a base at rest: 1 + the upward acceleration of the base in units of g."""
+
+
+@contract
+def weight_change_bound(p, drive, time):
+    """Return an upper bound on the change of the weight within the next ``time``."""
+
+
+@contract
+def lightest_ahead(p, drive):
+    """Return a lower bound of the weight from now on, 1 at most."""
+
+
+@contract
+def heaviest_ahead(p, drive):
+    """Return an upper bound of the size of the weight from now on, 1 at least."""
+
+
+@contract
 def smooth_time(p, drive):
     """Return the time until the base acceleration has a corner."""
 
@@ -287,12 +307,12 @@ def largest_ahead(p, side, drive):
 
 @contract
 def largest_within(p, drive, time):
-    """Return an upper bound of |base acceleration| up to a time before the next corner."""
+    """Return an upper bound of |base acceleration| up to a time before the next corner, plus |weight - 1|/alpha."""
 
 
 @contract
 def largest_near(p, drive, radius):
-    """Return an upper bound of |base acceleration| in the complex disc around an instant, of the series from there."""
+    """Return an upper bound of ``largest_within`` in the complex disc around an instant, of the series from there."""
 
 
 @contract

@@ -1,7 +1,8 @@
 """Systems: a block, the motion of its base, and the clock. They are the parameters of all kernels.
 
 There are three blocks, ``Slender``, ``Unsymmetric`` (slender, with unequal sides) and ``Full``, and three motions of the base,
-``Cosine``, ``Samples`` and ``Pulse``. Compiled code exists for each pair, such as ``Full[Samples]``.
+``Cosine``, ``Samples`` and ``Pulse``. Compiled code exists for each pair, such as ``Full[Samples]``. A base that also moves vertically,
+``Biaxial``, is for the full block alone.
 """
 
 import math
@@ -11,6 +12,7 @@ from typing import Generic, NamedTuple, TypeVar
 import numpy as np
 
 from rocking.kernels import contract
+from rocking.kernels.base.biaxial import Biaxial
 from rocking.kernels.base.cosine import (
     Cosine,
     Pulse,
@@ -26,7 +28,7 @@ from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.library.signature import Floats2
 from rocking.kernels.numerics.elementary import cosine_of, sine_of, tangent_of
 
-Base = TypeVar("Base", Cosine, Samples, Pulse)
+Base = TypeVar("Base", Cosine, Samples, Pulse, Biaxial)
 NO_LAW = np.empty((0, 2))
 
 
@@ -157,7 +159,7 @@ PeriodicParameters = Slender[Cosine] | Full[Cosine] | Unsymmetric[Cosine]
 """Systems whose base motion is periodic."""
 AnySampledParameters = Slender[Samples] | Full[Samples] | Unsymmetric[Samples]
 AnyPulseParameters = Slender[Pulse] | Full[Pulse] | Unsymmetric[Pulse]
-FiniteParameters = AnySampledParameters | AnyPulseParameters
+FiniteParameters = AnySampledParameters | AnyPulseParameters | Full[Biaxial]
 """Systems whose base motion ends."""
 SystemParameters = PeriodicParameters | FiniteParameters
 Block = SlenderBlock | UnsymmetricBlock | FullBlock
@@ -505,6 +507,19 @@ def sampled_system(
     return Full(block, forcing, clock, Slender(_resting(block), resting, clock))
 
 
+def biaxial_system(
+    block: FullBlock, tables: Tables, scale: float, vertical: np.ndarray, cycle_length: float
+) -> Full[Biaxial]:
+    """Return the system of a full block without braces under samples in two directions; ``vertical`` (n,) is in units of g, upwards."""
+    weights = np.append(1.0 + vertical, 1.0)
+    lightest = np.ascontiguousarray(np.minimum.accumulate(weights[::-1])[:0:-1])
+    heaviest = np.ascontiguousarray(np.maximum.accumulate(np.abs(weights[::-1]))[:0:-1])
+    own = tables, np.ascontiguousarray(weights[:-1]), lightest, heaviest
+    clock = Clock(float(cycle_length))
+    resting = Slender(_resting(block), Biaxial(scale / block.level, *own), clock)
+    return Full(block, Biaxial(float(scale), *own), clock, resting)
+
+
 def pulse_system(
     block: Block,
     amplitude: float,
@@ -573,6 +588,7 @@ __all__ = [
     "CYCLE",
     "AnyPulseParameters",
     "AnySampledParameters",
+    "Biaxial",
     "Cosine",
     "FiniteParameters",
     "Full",
@@ -589,6 +605,7 @@ __all__ = [
     "Tables",
     "Unsymmetric",
     "UnsymmetricBlock",
+    "biaxial_system",
     "full_block",
     "harmonic_parameters",
     "harmonic_system",

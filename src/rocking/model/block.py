@@ -19,7 +19,8 @@ from rocking.model.block_formulas import (
     housner_restitution,
     with_unit,
 )
-from rocking.model.forcing import BaseMotion, Forcing, Harmonic
+from rocking.model.forcing import BaseMotion, Forcing, Harmonic, PiecewiseLinear
+from rocking.model.changed_motion import checked_pair
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, LEFT_RESTITUTION, SIZES
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, checked_law, law_of
@@ -104,6 +105,15 @@ def checked_wall(value: Wall | None) -> Wall | None:
 def checked_normalisation(value: str) -> str:
     """Return the name of the unit of acceleration, after checking."""
     return one_of("normalised_by", value, NORMALISATIONS)
+
+
+def checked_vertical(base: Any, vertical: Any) -> GroundMotion:
+    """Return a vertical ground motion, after checking that it has the samples of the horizontal one."""
+    instance("vertical", vertical, GroundMotion)
+    allowed, remedy = "be omitted without a ground motion", "give both components of one record"
+    refuse_if(not isinstance(base, GroundMotion), "vertical", allowed, vertical, remedy)
+    checked_pair(base, vertical, "vertical", "horizontal component")
+    return vertical
 
 
 def size_warnings(checked_height: float, checked_width: float) -> Iterator[str]:
@@ -545,6 +555,7 @@ class Block(Dimensions):
         phase: float = 0.0,
         braces: Braces | None = None,
         wall: Wall | None = None,
+        vertical: GroundMotion | None = None,
         model: str | None = None,
         normalised_by: str | None = None,
     ) -> System:
@@ -565,6 +576,9 @@ class Block(Dimensions):
             Braces with a normalised angle, such as `Braces(angle=block.angle(degrees=3))`. Default: no braces.
         wall : Wall, optional
             Wall on the side θ < 0, whose coefficient of restitution is that of all impacts. Default: that of the block, if any.
+        vertical : GroundMotion, optional
+            Vertical acceleration of the ground, positive upwards, with the step and the number of samples of the ground motion
+            `base`. Default: the ground moves horizontally.
         model : {"slender", "full"}, optional
             Equation of motion: that of small angles, or the full one. Default: "full" under a ground motion or a pulse, "slender" on
             a harmonic base.
@@ -624,6 +638,7 @@ class Block(Dimensions):
         check_model(block.law, model)
         own = with_unit(block, normalisation_for(normalised_by, model, finite=base is not None))
         if base is None:
+            refuse_if(vertical is not None, "vertical", "be omitted without a ground motion", vertical)
             return own._made(own._harmonic(**harmonic, phase=phase), braces, angle, block.law.scatter)
         values = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
         if values:
@@ -632,17 +647,27 @@ class Block(Dimensions):
             warn_of_value(vertical_sentence([base.component]))
         scales = own.acceleration(1.0), self.rate_unit
         forcing = instance("base", base, BaseMotion).normalised(*scales)
+        lift = None if vertical is None else checked_vertical(base, vertical).normalised(GRAVITY, scales[1])
         scatter = block.law.scatter
         if scatter is not None and isinstance(base, GroundMotion):
             scatter = evolve(scatter, run=base.number)
-        return own._made(forcing, braces, angle, scatter)
+        return own._made(forcing, braces, angle, scatter, lift)
 
     def _made(
-        self, forcing: Forcing, braces: Braces | None, critical_angle: float | None, scatter: Scatter | None
+        self,
+        forcing: Forcing,
+        braces: Braces | None,
+        critical_angle: float | None,
+        scatter: Scatter | None,
+        vertical: PiecewiseLinear | None = None,
     ) -> System:
         """Return the system of the block, which it knows."""
         rows = self.law.normalised_rows(float(self.radians_per_second(1.0)))
-        more: dict[str, Any] = {"restitution_table": rows, "restitution_scatter": scatter}
+        more: dict[str, Any] = {
+            "restitution_table": rows,
+            "restitution_scatter": scatter,
+            "vertical": vertical,
+        }
         return System(forcing, self.restitution, braces, critical_angle, left=self.left, block=self, **more)
 
     def _harmonic(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from attrs import astuple, evolve, field, frozen
 
 from rocking.model.block_formulas import NORMALISATIONS, Dimensions, with_unit
-from rocking.model.forcing import Forcing, Harmonic
+from rocking.model.forcing import Forcing, Harmonic, PiecewiseLinear
 from rocking.model.quantity import (
     ANGLE,
     ANGLE_RATIO,
@@ -221,6 +221,10 @@ def _restitution_table(value: Iterable[tuple[float, float]]) -> tuple[tuple[floa
     return checked_rows("restitution_table", value)
 
 
+def _vertical(value: PiecewiseLinear | None) -> PiecewiseLinear | None:
+    return None if value is None else instance("vertical", value, PiecewiseLinear)
+
+
 def _critical_angle(value: float | None) -> float | None:
     return None if value is None else CRITICAL_ANGLE.checked(value)
 
@@ -244,6 +248,9 @@ class System:
     An unsymmetric block has a `left` side with q = θcr₂/θcr₁ and r = α₂/α₁. All units are those of the right side, Θ > 0. On the
     left side, Θ'' = r²[Θ + q − A(τ)] for a slender block, and Θ'' = r²[sin(w)/θcr − A(τ) cos(w)] with w = θcr (q + Θ) for the full
     equation. The impact that ends the motion on a side has the coefficient of restitution of that side.
+
+    On a base with a `vertical` acceleration a_v, the terms without A are multiplied by 1 + a_v: Θ'' = (1 + a_v)(Θ ∓ 1) − A(τ), and
+    sin(w) becomes (1 + a_v) sin(w). The block at rest lifts off where |A| exceeds (1 + a_v) times the level without a_v.
 
     Parameters
     ----------
@@ -271,6 +278,9 @@ class System:
     left : LeftSide or Wall, optional
         Left side of an unsymmetric block, or a wall there, whose coefficient of restitution is then that of the system. Default:
         none, a symmetric block. One that equals the right side counts as none.
+    vertical : PiecewiseLinear, optional
+        Vertical acceleration a_v of the base in units of g, positive upwards, with the step and the number of samples of `forcing`. It
+        multiplies the weight of the block by 1 + a_v. Default: none.
 
     Raises
     ------
@@ -294,10 +304,13 @@ class System:
     restitution_scatter: Scatter | None = field(default=None, converter=check_scatter, kw_only=True)
     block: Block | None = field(default=None, converter=_block, kw_only=True, eq=False, repr=False)
     left: Side | None = field(default=None, converter=_left, kw_only=True)
+    vertical: PiecewiseLinear | None = field(default=None, converter=_vertical, kw_only=True)
 
     def __attrs_post_init__(self) -> None:
         """Refuse a table for the slender block, and braces that a full block reaches only when it lies flat."""
         self._check_left()
+        if self.vertical is not None:
+            self._check_vertical(self.vertical)
         if self.block is not None:
             restrained = self.block.restrainer is not None
             refuse_if(restrained and self.braces is not None, "braces", RESTRAINED, Text(str(self.braces)))
@@ -334,6 +347,19 @@ class System:
         if self.critical_angle is not None:
             low, high = (each / self.critical_angle for each in CRITICAL_ANGLE.range)
             within("angle_ratio", self.left.angle_ratio, low, high)
+
+    def _check_vertical(self, vertical: PiecewiseLinear) -> None:
+        """Refuse what does not go with a vertical acceleration: another base motion than samples at the same times, braces, a restrainer."""
+        base, got = self.forcing, Text("both")
+        allowed = "be omitted unless {forcing} is rk.PiecewiseLinear"
+        if not isinstance(base, PiecewiseLinear):
+            raise Refusal("vertical", allowed, Text(f"{{forcing}} {base}"))
+        allowed = f"have {base.values.size} samples with a step of {base.step:g}, as {{forcing}}"
+        apart = (vertical.values.size, vertical.step) != (base.values.size, base.step)
+        refuse_if(apart, "vertical", allowed, vertical)
+        refuse_if(self.braces is not None, "braces", "be omitted with {vertical}", got)
+        restrained = self.block is not None and self.block.restrainer is not None
+        refuse_if(restrained, "vertical", RESTRAINED, vertical)
 
     def _check_wall(self, wall: Wall) -> None:
         """Refuse what is not for a block against a wall: braces, and another restitution than that of the wall."""

@@ -59,6 +59,23 @@ class TooManyEvents(ValueError):
     """
 
 
+class ContactLost(ValueError):
+    """Motion under vertical acceleration in which the block leaves the base: the base reaction vanishes. The message states the instant.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> block = rk.Block(height=2.0, width=0.6)
+    >>> ground = rk.GroundMotion([0.0, 4.0, 0.0], step=0.5)
+    >>> down = rk.GroundMotion([0.0, -12.0, 0.0], step=0.5)
+    >>> try:
+    ...     print(rk.simulate(block.system(ground, vertical=down)))
+    ... except rk.ContactLost as lost:
+    ...     print(lost)
+    the base reaction vanishes at t = ... s: the block leaves the base
+    """
+
+
 class TooShort(ValueError):
     """Motion that is too short for an estimate with an error.
 

@@ -20,6 +20,11 @@ from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import TooManyEvents
 from rocking.model.verdict import Outcome
 
+SMALL = 1e-8
+"""Critical angle with which a slender block under vertical acceleration is followed by the full equation.
+
+Up to |Θ| = 2 its sine and tangent are linear, and its cosine is 1, to 2e-16. So the equation is that of the slender block to rounding.
+"""
 MAX_TABLES = 8
 """Number of tables that are kept: those of the same samples and step, for all scales and restitutions."""
 _tables: OrderedDict[tuple[int, float], tuple[np.ndarray, numbers.Tables]] = OrderedDict()
@@ -41,20 +46,27 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
         forcing = forcing.samples
     assert isinstance(forcing, PiecewiseLinear)
     length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
+    if system.vertical is not None:
+        assert isinstance(block, numbers.FullBlock)
+        vertical = system.vertical.scale * system.vertical.values
+        return numbers.biaxial_system(block, tables_for(forcing), forcing.scale, vertical, length)
     return numbers.sampled_system(block, tables_for(forcing), forcing.scale, length)
 
 
 def _block_of(system: System) -> numbers.Block:
     braces = (math.inf, 1.0) if system.braces is None else (system.braces.angle, system.braces.restitution)
-    if system.critical_angle is None:
-        return numbers.slender_block(system.restitution, *braces, left=_left_of(system))
+    critical_angle = system.critical_angle
+    if critical_angle is None:
+        if system.vertical is None:
+            return numbers.slender_block(system.restitution, *braces, left=_left_of(system))
+        critical_angle = SMALL
     rows, unit, block = system.restitution_law, 1.0, system.block
     if block is not None and block.law.rows:  # with the rounding of surveys, whose speeds are in rad/s
         rows, unit = block.law.rows, float(block.radians_per_second(1.0))
     law = np.array(rows).reshape(-1, 2)
     largest = max([system.restitution, *law[:, 1].tolist()])
     scatter, left = scatter_of(system.restitution_scatter), _left_of(system)
-    made = numbers.full_block(largest, system.critical_angle, *braces, law, left=left, scatter=scatter)
+    made = numbers.full_block(largest, critical_angle, *braces, law, left=left, scatter=scatter)
     return made._replace(speed_unit=unit)
 
 

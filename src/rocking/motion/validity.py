@@ -16,7 +16,7 @@ from rocking.kernels.motion import march
 from rocking.model.block import Block, unrestrained
 from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
 from rocking.model.result import in_units_of
-from rocking.model.validation import Refusal, Text, instance, refuse_if
+from rocking.model.validation import ContactLost, Refusal, Text, instance, refuse_if
 from rocking.model.verdict import Outcome
 from rocking.motion.branch_and_bound import NOTHING, Arcs, Array, Extreme, first_time, global_minimum
 from rocking.motion.march_loop import is_lossless, outcome_of, parameters, run
@@ -384,7 +384,7 @@ def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) 
 
     Relative to the base, the centre of mass has the accelerations ``x'' = R (cos δ θ'' ± sin δ θ'²)`` and
     ``y'' = R (± sin δ θ'' − cos δ θ'²)``, with δ = θcr − |θ| and ± for the side. Then H/M = a_g + x'' and N/M = g + y''.
-    In units of g, R α²/g = MR²/Io. R and θcr are those of the side.
+    In units of g, R α²/g = MR²/Io. R and θcr are those of the side. On a base with the upward acceleration a_v, N/M = g + a_v + y''.
     """
     angle, velocity = motion.at(times)
     left = np.asarray(sides) < 0
@@ -394,7 +394,32 @@ def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) 
     centripetal = arm * (block.critical_angle**2 / block.inertia_ratio * velocity**2)
     push = block.acceleration_unit_g * motion.system.forcing.acceleration(times)
     sideways = push + np.cos(lean) * turning + sides * np.sin(lean) * centripetal
-    return sideways, 1 + sides * np.sin(lean) * turning - np.cos(lean) * centripetal
+    up = 1 + sides * np.sin(lean) * turning - np.cos(lean) * centripetal
+    if motion.system.vertical is not None:
+        up = up + motion.system.vertical.acceleration(times)
+    return sideways, up
+
+
+def check_contact(motion: Trajectory) -> None:
+    """Raise ContactLost for a motion under vertical acceleration whose base reaction vanishes before overturning is proved.
+
+    The first time is found by branch and bound over the exact motion. A system without a block is taken as slender without limit: then
+    the reaction is 1 + a_v.
+    """
+    until = motion.duration if motion.overturning is None else motion.overturning.time
+    moving, resting, _ = split(motion, until)
+    block, vertical, forcing = motion.system.block, motion.system.vertical, motion.system.forcing
+    assert vertical is not None
+
+    def upward(times: Array, sides: Array) -> tuple[Array, Array]:
+        up = 1 + vertical.acceleration(times) if block is None else base_reaction(motion, block, times, sides)[1]
+        return up[None], np.ones(times.size)
+
+    slow = forcing.time_scale
+    begins = min(first_time(upward, 0.0, moving, min(slow, 1)), first_time(upward, 0.0, resting, slow))
+    if begins < math.inf:
+        at = f"τ = {begins:.6g}" if block is None else f"t = {block.seconds(begins):.6g} s"
+        raise ContactLost(f"the base reaction vanishes at {at}: the block leaves the base")
 
 
 def impact_friction(motion: Trajectory, block: Block) -> Extreme:

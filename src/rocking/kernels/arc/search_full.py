@@ -1,9 +1,14 @@
 """Certified next event of the full block, and its states, perturbations and turns, step by step; proof that it overturns.
 
-With x = |theta| - alpha of a side, and times in units of its rate, x'' = sin x - sigma a cos x >= r sin(x - beta) for |x| <= pi/2,
-where beta = arctan(a_m), r^2 = 1 + a_m^2, and a_m >= sigma a from now on. For q = x' + 2 sqrt(r) sin((x - beta)/2),
-q' >= sqrt(r) cos((x - beta)/2) q. So q >= 0 remains, and the block never returns. It also stays down once it lies flat, at
-|theta| = pi/2.
+With x = |theta| - alpha of a side, and times in units of its rate, x'' = W sin x - sigma a cos x, with the weight W, which is 1 on a base
+that moves horizontally. From now on let l <= W <= h, with 0 < l <= 1 <= h, and a_m >= sigma a, where a_m >= 0. If x >= 0,
+W sin x >= l sin x. If x0 <= x < 0, W sin x >= l sin x - (h - l) tan|x0| cos x. So with m = a_m + (h - l) tan(max(-x0, 0)),
+
+    x'' >= l sin x - m cos x = r sin(x - beta) for x0 <= x <= pi/2, beta = arctan(m/l), r^2 = l^2 + m^2.
+
+For q = x' + 2 sqrt(r) sin((x - beta)/2), q' >= sqrt(r) cos((x - beta)/2) q. So q >= 0 remains. Then x' > 0 wherever x < beta, so that x
+never falls below the lower one of x0 and beta, and the bound holds for ever: the block never returns. If l <= 0, nothing is proved. It
+also stays down once it lies flat, at |theta| = pi/2.
 """
 
 import math
@@ -34,11 +39,14 @@ from rocking.kernels.contract import (
     drive_after_event,
     drive_later,
     drive_on_clock,
+    heaviest_ahead,
     largest_ahead,
+    lightest_ahead,
+    weight_of,
 )
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
 from rocking.kernels.library.kernel import body, kernel
-from rocking.kernels.numerics.elementary import arctangent, hypotenuse, sine_of
+from rocking.kernels.numerics.elementary import arctangent, hypotenuse, sine_of, tangent_of
 from rocking.kernels.system import Full, side_of
 
 FLAT = 0.5 * math.pi
@@ -53,12 +61,21 @@ def never_returns(p, side, angle, velocity, drive):
     if alpha * angle >= FLAT:
         return True
     x, slope = alpha * (angle - own.ratio), alpha * velocity / own.rate
-    # Most blocks are far too slow, whatever the base does. With beta >= 0, r >= 1 and y = -x, 2 sin(y/2) >= y - y^3/24.
+    # Most blocks are far too slow, whatever the base does. With beta >= 0, r >= 1 and y = -x, 2 sin(y/2) >= y - y^3/24. If r < 1, a
+    # proof may come later.
     if x < 0.0 and slope < -x * (1.0 - x * x / 24.0):
         return False
-    largest = alpha * largest_ahead(p, side, drive)
-    lean = x - arctangent(largest)
-    return lean > -math.pi and slope + 2.0 * math.sqrt(hypotenuse(1.0, largest)) * sine_of(0.5 * lean) >= 0.0
+    largest, light, heavy = (
+        alpha * largest_ahead(p, side, drive),
+        lightest_ahead(p, drive),
+        heaviest_ahead(p, drive),
+    )
+    if light <= 0.0:
+        return False
+    if heavy > light and x < 0.0:
+        largest += (heavy - light) * tangent_of(-x)
+    lean = x - arctangent(largest / light)
+    return lean > -math.pi and slope + 2.0 * math.sqrt(hypotenuse(light, largest)) * sine_of(0.5 * lean) >= 0.0
 
 
 @body(contract.arc_at, Full, inline=True)
@@ -180,7 +197,7 @@ def first_event(p, arc, peak, with_lows):
         h = min(t, step.length)
         if peak < math.inf:
             peak = peak_in(p, arc, step, drive, h, peak)
-        stiffness = step.cosine - arc.side * p.block.critical_angle * acceleration_of(p, drive) * step.sine
+        stiffness = weight_of(p, drive) * step.cosine - arc.side * p.block.critical_angle * acceleration_of(p, drive) * step.sine
         growth, part = growth + h * stiffness, (h / step.length) ** 4
         steps += part * part
         rise, velocity = state_in(step, h)

@@ -9,7 +9,7 @@ import math
 
 from rocking.kernels import contract
 from rocking.kernels.arc.arc import Next
-from rocking.kernels.contract import acceleration_of
+from rocking.kernels.contract import acceleration_of, weight_of
 from rocking.kernels.event_kinds import REST
 from rocking.kernels.library.kernel import body
 from rocking.kernels.numerics.elementary import cosine_of, sine_of
@@ -18,10 +18,10 @@ from rocking.kernels.system import Full, Unsymmetric, side_of
 
 @body(contract.acceleration, Full, inline=True)
 def acceleration(p, side, angle, drive):
-    """Provide ``contract.acceleration``: u'' = -r^2 (sin(w)/alpha + sigma A cos(w)), w = alpha (s - u)."""
+    """Provide ``contract.acceleration``: u'' = -r^2 (W sin(w)/alpha + sigma A cos(w)), w = alpha (s - u), with the weight W."""
     alpha, own = p.block.critical_angle, side_of(p.block, side)
     w = alpha * (own.ratio - angle)
-    return own.stiffness * (-sine_of(w) / alpha - side * acceleration_of(p, drive) * cosine_of(w))
+    return own.stiffness * (-(weight_of(p, drive) * sine_of(w)) / alpha - side * acceleration_of(p, drive) * cosine_of(w))
 
 
 @body(contract.forcing_term, Full, inline=True)

@@ -64,8 +64,10 @@ def chosen_of(union: Any) -> list[Chosen]:
     members = []
     for k, member in enumerate(get_args(union)):
         base = get_args(member)
-        place = get_origin(member).__parameters__[0].__constraints__.index(base[0]) if base else k
-        members.append(Chosen(member, place))
+        if base:  # a base may have the drives and the constants of another one
+            bases = get_origin(member).__parameters__[0].__constraints__
+            k = bases.index(getattr(base[0], "LIKE", base[0]))
+        members.append(Chosen(member, k))
     return members
 
 

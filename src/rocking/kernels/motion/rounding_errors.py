@@ -4,7 +4,7 @@ Each arc adds the error of its own arithmetic, and the matrices of ``tangent`` c
 as independent, so that their squares add up.
 
 On an arc of a slender block a perturbation is a sum of e^t and e^-t, exactly. On one of a full block x'' = q(t) x, where
-q = cos w - sigma a sin w. The covariance is carried with the mean of q over the arc, the first term of the Magnus series.
+q = W cos w - sigma a sin w, with the weight W. The covariance is carried with the mean of q over the arc, the first term of the Magnus series.
 
 An arc of a slender block ends as computed if K+ exceeds its error: no more is to be known, because the equation is linear. Of a full
 block the error at the end of the arc must be small. For a size d of the error, terms of its second order are alpha d^2 at most. So
@@ -127,9 +127,8 @@ def rounding_error(p, arc, wait, growth, steps):
     """
     short = min(wait, 1.0)
     count = steps * (short / wait) if wait > 0.0 else 0.0
-    terms = (
-        arc.angle + abs(arc.velocity) + (side_of(p.block, arc.side).press + contract.largest_push(p)) * short
-    )
+    push = contract.heaviest_ahead(p, arc.drive) * side_of(p.block, arc.side).press + contract.largest_push(p)
+    terms = arc.angle + abs(arc.velocity) + push * short
     return growth * (ROUNDING * math.sqrt(1.0 + count) * terms + (ERROR / DEVIATIONS) * count)
 
 

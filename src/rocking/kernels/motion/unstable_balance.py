@@ -2,7 +2,9 @@
 
 The arcs of one side are continued smoothly through u = 0, and the base is at rest after its motion. With x = alpha (u - 1),
 
-    x'' = sin x - sigma a(t) cos x.
+    x'' = W(t) sin x - sigma a(t) cos x,
+
+with the weight W, which is 1 on a base that moves horizontally, and after the base motion.
 
 (For a left side of its own, alpha and the unit of time are those of the side.)
 
@@ -11,13 +13,14 @@ v_s(t) = W(t, 0), and the margin of a block that leaves the base at the speed v 
 K > 0 it overturns, unless it meets the base before. After the base motion W = -(2/alpha) sin(x/2). For small alpha, K is the
 constant K+ of the slender block.
 
-**Existence.** Let |a| <= m from now on. If m < 1 and alpha + arctan m < 90 degrees, the difference d of two motions within
-|x| <= max(alpha, arctan m) obeys d'' = q d with q > 0, so that one of them is bounded, and only one. Otherwise q > 0 is checked along
-the motion that is found. If it fails, there is no margin.
+**Existence.** Let |a| <= m l and W >= l > 0 from now on. If m < 1 and alpha + arctan m < 90 degrees, the difference d of two motions
+within |x| <= max(alpha, arctan m) obeys d'' = q d with q > 0, so that one of them is bounded, and only one: q is a mean of
+W cos x - sigma a sin x >= l (cos x - m |sin x|), and x W sin x > |a x| cos x beyond arctan m. Otherwise q > 0 is checked along the motion
+that is found. If it fails, there is no margin.
 
 **Method.** For any motion the excess e = u' - W(t, u) obeys e' = -W_u e. So K is the excess at a later time, divided by its growth,
 which follows from the equation of small perturbations, to first order in K. W is approximated by that of the free block and the
-response R of the slender one, W = -(2/alpha) sin(x/2) + sigma R. If the excess becomes larger than JUMP, the motion is put
+response R of the slender one to a, W = -(2/alpha) sin(x/2) + sigma R. If the excess becomes larger than JUMP, the motion is put
 onto this W, and goes on. The sum of all excesses, each divided by the growth so far, is K. An error of W counts less by the
 growth. What is left is of second order in each excess: W_uu is about alpha^2/4. Repetition from the better speed makes it as small
 as is wanted. Each repetition allows larger excesses, so that the error of W causes no jump in the end.
@@ -26,9 +29,11 @@ as is wanted. Each repetition allows larger excesses, so that the error of W cau
 import math
 
 from rocking.kernels import contract
-from rocking.kernels.arc.full_series import brief_divided_1, brief_linear_series
+from rocking.kernels.arc.full_series import brief_biaxial_series, brief_divided_1, brief_linear_series
+from rocking.kernels.arc.full_biaxial import pushes_at
 from rocking.kernels.arc.full_step import lean_of, state_in, step_from
 from rocking.kernels.arc.slender_samples import means_at
+from rocking.kernels.base.biaxial import Biaxial
 from rocking.kernels.base.cosine import Pulse
 from rocking.kernels.base.samples import Samples, interval
 from rocking.kernels.contract import (
@@ -37,6 +42,7 @@ from rocking.kernels.contract import (
     elapsed_until,
     growth_constant,
     has_ended,
+    lightest_ahead,
     response_ahead,
     smooth_step,
     smooth_time,
@@ -66,7 +72,7 @@ FLAT = 0.5 * math.pi
 UPSIDE_DOWN = math.pi
 
 
-@body(contract.response_ahead, Full, Samples, inline=True)
+@body(contract.response_ahead, Full, Samples, Biaxial, inline=True)
 def response_to_samples(p, drive):
     """Provide ``contract.response_ahead`` by the tables."""
     mean, rate = means_at(p, drive)
@@ -96,6 +102,19 @@ def step_between_samples(p, side, angle, velocity, drive):
     slope, bend = brief_divided_1(angle, velocity, c, h)
     later = drive_later(p, drive, h, h == corner)
     return angle + slope * h, fma(bend, h, slope), cosine - push * sine, h, later
+
+
+@body(contract.smooth_step, Full, Biaxial)
+def step_between_weights(p, side, angle, velocity, drive):
+    """Provide ``contract.smooth_step`` by a series of low order."""
+    alpha, corner = p.block.critical_angle, smooth_time(p, drive)
+    h = min(corner, LONGEST)
+    push, rate, weight, lift = pushes_at(p, side, drive)
+    sine, cosine = lean_of(p.block, side, angle)
+    c = brief_biaxial_series(-alpha * velocity, sine, cosine, -1.0 / alpha, push, rate, weight, lift)
+    slope, bend = brief_divided_1(angle, velocity, c, h)
+    later = drive_later(p, drive, h, h == corner)
+    return angle + slope * h, fma(bend, h, slope), weight * cosine - push * sine, h, later
 
 
 @kernel(inline=True)
@@ -169,8 +188,10 @@ def excess_of(p, arc, speed, far, jump):
 @kernel
 def is_unique(p, arc):
     """Return whether the bound of the module's text proves that one motion is bounded, and only one."""
-    alpha = p.block.critical_angle
-    largest = alpha * contract.largest_push(p)
+    alpha, light = p.block.critical_angle, lightest_ahead(p, arc.drive)
+    if light <= 0.0:
+        return False
+    largest = alpha * contract.largest_push(p) / light
     return largest < 1.0 and alpha * side_of(p.block, arc.side).ratio + arctangent(largest) < FLAT
 
 
