@@ -140,6 +140,20 @@ CALLS = {
     "`simulate` under samples": lambda kind: rk.simulate(
         of(kind, forcing=rk.PiecewiseLinear([0.0, 2.0, -2.0, 0.0], step=0.5))
     ),
+    "`simulate` under samples, with vertical motion": lambda kind: rk.simulate(
+        of(
+            kind,
+            forcing=rk.PiecewiseLinear([0.0, 2.0, -2.0, 0.0], step=0.5),
+            vertical=rk.PiecewiseLinear([0.0, -0.3, 0.4, 0.0], step=0.5),
+        )
+    ),
+    "`simulate` under a pulse, with vertical motion": lambda kind: rk.simulate(
+        of(
+            kind,
+            forcing=rk.Pulse("one-sine", amplitude=2.0, duration=1.0),
+            vertical=rk.PiecewiseLinear([0.0, -0.3, 0.4, 0.0], step=0.5),
+        )
+    ),
     "`overturning_spectrum`": lambda kind: rk.overturning_spectrum(
         of(kind, forcing=rk.Pulse("ricker", amplitude=2.0, duration=1.0)),
         amplitude=[1.0, 3.0],

@@ -1,5 +1,7 @@
 """Motion of a block under samples by Taylor series in balls of python-flint, with 50 digits: full or slender, free or against a wall.
 
+The base may also move vertically, which multiplies the weight of the block.
+
 Nothing is taken from the package. The first zero of a step is that of its polynomial in doubles, refined with all digits.
 """
 
@@ -25,8 +27,11 @@ def middle(x):
     return flint.arb(x.mid())
 
 
-def series(alpha, side, u, v, push, rate):
-    """Return the Taylor coefficients of u from an instant on, where the base acceleration is push + rate t in units of g alpha."""
+def series(alpha, side, u, v, push, rate, weight=1, lift=0):
+    """Return the Taylor coefficients of u from an instant on, where the base acceleration is push + rate t in units of g alpha.
+
+    The weight of the block is weight + lift t, relative to that on a base at rest.
+    """
     w = alpha * (1 - u)
     size = side * alpha
     now, change = size * push, size * rate
@@ -37,17 +42,18 @@ def series(alpha, side, u, v, push, rate):
         if k:
             sines.append(sum((slopes[j] * cosines[k - j] for j in range(1, k + 1)), flint.arb(0)) / k)
             cosines.append(-sum((slopes[j] * sines[k - j] for j in range(1, k + 1)), flint.arb(0)) / k)
-        later = sines[k] + now * cosines[k] + (change * cosines[k - 1] if k else 0)
+        later = weight * sines[k] + now * cosines[k]
+        later += change * cosines[k - 1] + lift * sines[k - 1] if k else 0
         waves.append(later / ((k + 1) * (k + 2)))
         slopes.append(waves[-1] * (k + 2))
     return [u, v, *(-wave / alpha for wave in waves[2:])]
 
 
-def slender_series(side, u, v, push, rate):
-    """Return the same for the slender block, u'' = u - 1 - side a."""
-    c = [u, v, (u - 1 - side * push) / 2, (v - side * rate) / 6]
+def slender_series(side, u, v, push, rate, weight=1, lift=0):
+    """Return the same for the slender block, u'' = weight (u - 1) - side a."""
+    c = [u, v, (weight * (u - 1) - side * push) / 2, (weight * v + lift * (u - 1) - side * rate) / 6]
     for k in range(4, ORDER + 1):
-        c.append(c[k - 2] / (k * (k - 1)))
+        c.append((weight * c[k - 2] + lift * c[k - 3]) / (k * (k - 1)))
     return c
 
 
@@ -82,10 +88,13 @@ class Block:
     """Block with an angle and a coefficient of restitution, under samples times a scale at a step, all doubles.
 
     The angle of a slender block is 0. Against a wall the block lifts to side 1 only, and an impact turns u' to -e u' on that side.
+    ``vertical`` holds samples of the upward acceleration in units of g.
     """
 
-    def __init__(self, values, step, scale, restitution, angle, wall=False):
+    def __init__(self, values, step, scale, restitution, angle, wall=False, vertical=None):
         with flint.ctx.workdps(DIGITS):
+            lifts = np.zeros(len(values)) if vertical is None else vertical
+            self.weights = [1 + flint.arb(float(one)) for one in lifts]
             self.values = [flint.arb(float(one)) * flint.arb(float(scale)) for one in values]
             self.step, self.e = flint.arb(float(step)), flint.arb(float(restitution))
             self.alpha = flint.arb(float(angle))
@@ -94,23 +103,23 @@ class Block:
 
     def lift_off(self, index, offset):
         """Return interval, time in it and side of the next lift-off; None if there is none."""
-        values, last = self.values, len(self.values) - 1
-        for k in range(index, last):
-            rate = (values[k + 1] - values[k]) / self.step
-            start = values[k] + rate * offset if k == index else values[k]
+        sides = (1,) if self.wall else (1, -1)
+        for k in range(index, len(self.values) - 1):
             begun = offset if k == index else flint.arb(0)
-            if self.reaches(start) > self.level:
-                return k, begun, -1 if start > 0 else 1
-            if self.reaches(values[k + 1]) > self.level:
-                sign = 1 if values[k + 1] > 0 else -1
-                return k, middle((sign * self.level - values[k]) / rate), -sign
-            if not self.reaches(values[k + 1]) <= self.level:
-                raise Undecided
+            for side in sides:
+                start, end = self.excess(side, k), self.excess(side, k + 1)
+                rate = (end - start) / self.step
+                if start + rate * begun > 0:
+                    return k, begun, side
+                if end > 0:
+                    return k, middle(-start / rate), side
+                if not end <= 0:
+                    raise Undecided
         return None
 
-    def reaches(self, push):
-        """Return what must exceed the level for a lift-off: |a|, or -a against a wall."""
-        return -push if self.wall else abs(push)
+    def excess(self, side, k):
+        """Return by how much the push to a side exceeds the level of lift-off at a sample."""
+        return -side * self.values[k] - self.level * self.weights[k]
 
     def overturns(self, limit=60_000):
         """Return whether the block, at rest at first, overturns."""
@@ -131,11 +140,9 @@ class Block:
             h = min(float((self.step - t).mid()), LONGEST)
             at_end = h >= float((self.step - t).mid())
             push = self.values[k] + rate * t
-            c = (
-                slender_series(side, u, v, push, rate)
-                if self.slender
-                else series(alpha, side, u, v, push, rate)
-            )
+            lift = (self.weights[k + 1] - self.weights[k]) / self.step
+            forces = push, rate, self.weights[k] + lift * t, lift
+            c = slender_series(side, u, v, *forces) if self.slender else series(alpha, side, u, v, *forces)
             zero = first_zero(c, h)
             if zero is None:
                 stride = self.step - t if at_end else flint.arb(h)

@@ -195,6 +195,13 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
             make(
                 "second", RecordFile(), "FILE", "File of the other horizontal component, for --azimuth-deg."
             ),
+            make(
+                "vertical",
+                RecordFile(),
+                "FILE",
+                "File of the vertical component, positive upwards, with the step and the number of samples of the record. It is scaled as "
+                "the record is.",
+            ),
             number(
                 "floor_period",
                 "Period of a floor, s: the block stands on a linear oscillator on this ground.",

@@ -90,9 +90,10 @@ def record(options: Options) -> Request:
     block, braces, start = block_in_si(options), braces_of(options), start_of(options)
     check_friction(options)
     ground, sentences = ground_motion(options)
-    with refusals(NAMES):
+    vertical = vertical_motion(options, ground.factor)
+    with refusals({**NAMES, "vertical": "the record of --vertical"}):
         grounds = [ground if sign > 0 else ground.reversed() for sign in directions(options)]
-        how = select(options, "model", "normalised_by")
+        how = {**select(options, "model", "normalised_by"), "vertical": vertical}
         systems = [block.system(each, braces=braces, **how) for each in grounds]
         place = worse(systems, start)
     system, ground = systems[place], grounds[place]
@@ -176,6 +177,27 @@ def ground_motion(options: Options) -> tuple[GroundMotion, list[str]]:
             ground = ground.floor(options["floor_period"], **damping)
     vertical = vertical_sentence([ground.component]) if ground.vertical else ""
     return ground, [*sentences, *filter(None, (vertical, as_options(ground.drift_doubt)))]
+
+
+def vertical_motion(options: Options, factor: float) -> GroundMotion | None:
+    """Return the vertical ground motion of the options, times the factor of the horizontal one; None without the option.
+
+    InvalidInput if the file has not one vertical channel, or one channel only.
+    """
+    if "vertical" not in options:
+        return None
+    if "floor_period" in options:
+        raise InvalidInput("give --vertical or --floor-period, not both: a floor moves horizontally")
+    from rocking.records.read import read_ground_motions
+
+    with reading({**NAMES, "source": "--vertical"}):
+        motions = read_ground_motions(options["vertical"], **select(options, *READING))
+    found = [each for each in motions if each.vertical or len(motions) == 1]
+    if len(found) != 1:
+        raise InvalidInput(
+            f"--vertical needs a file with one vertical channel, or with one channel; got {len(found)} of {len(motions)} channels"
+        )
+    return found[0].scaled(factor)
 
 
 def check_direction(options: Options) -> None:

@@ -56,7 +56,7 @@ def run(system: System, start: State, cycles: int | None, files: tuple[str, ...]
     Events are dropped for too many cycles, and for too many events if no file needs them. A base motion of finite length
     has no cycles: None.
     """
-    from rocking.model.validation import TooManyEvents
+    from rocking.model.validation import ContactLost, TooManyEvents
     from rocking.motion.simulate import simulate
 
     if cycles is not None and not cycles <= MAX_CYCLES_KEPT:
@@ -66,6 +66,8 @@ def run(system: System, start: State, cycles: int | None, files: tuple[str, ...]
         cycles = counted.cycles  # the block overturned early
     try:
         return simulate(system, start, cycles=cycles)
+    except ContactLost as error:
+        raise InvalidInput(str(error)) from error
     except TooManyEvents as error:
         if files:
             names = ", ".join(map(option, files))
@@ -283,7 +285,7 @@ def record_text(motion: Motion, request: Request) -> Text:
     """Return the summary, with the warnings of the reader."""
     block, ground = block_of(request), request.records
     friction = request.options.get("friction")
-    rows = [*of_ground(ground), *of_direction(request), *of_block(motion, block)]
+    rows = [*of_ground(ground), *of_vertical(motion), *of_direction(request), *of_block(motion, block)]
     rows += record_rows(motion, block, friction)
     lines = warning_lines([*request.warnings, *undecided(motion)])
     lines += [*angle_warning(motion.start.angle, block), *validity_warnings(motion, block, friction)]
@@ -359,6 +361,13 @@ def of_ground(ground: GroundMotion) -> Iterator[Row]:
     yield "CAV", f"{ground.cav:.4g} m/s"
     yield "significant duration", f"{ground.significant_duration:.4g} s"
     yield "bracketed duration", f"{ground.bracketed_duration():.4g} s, above 0.05 g"
+
+
+def of_vertical(motion: Motion) -> Iterator[Row]:
+    """Yield the row of the vertical acceleration, if there is one."""
+    if (vertical := motion.system.vertical) is not None:
+        upwards = vertical.scale * vertical.values
+        yield "vertical acceleration", f"{upwards.min():.4g} to {upwards.max():.4g} g, positive upwards"
 
 
 def of_direction(request: Request) -> Iterator[Row]:

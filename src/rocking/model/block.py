@@ -19,8 +19,8 @@ from rocking.model.block_formulas import (
     housner_restitution,
     with_unit,
 )
-from rocking.model.forcing import BaseMotion, Forcing, Harmonic, PiecewiseLinear
 from rocking.model.changed_motion import checked_pair
+from rocking.model.forcing import BaseMotion, Forcing, Harmonic, PiecewiseLinear
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, LEFT_RESTITUTION, SIZES
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, checked_law, law_of

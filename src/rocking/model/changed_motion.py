@@ -53,7 +53,9 @@ def azimuth(component: str) -> float | None:
     return (from_north if match.group(1).upper() == "N" else 180.0 - from_north) % 360.0
 
 
-def checked_pair(first: GroundMotion, other: Any, name: str = "other", own_name: str = "first component") -> None:
+def checked_pair(
+    first: GroundMotion, other: Any, name: str = "other", own_name: str = "first component"
+) -> None:
     """Refuse anything but two motions with the same step and the same number of samples; `name` is the argument of the other one."""
     instance(name, other, type(first))
     size, step = first.times.size, first.step

@@ -349,7 +349,7 @@ class System:
             within("angle_ratio", self.left.angle_ratio, low, high)
 
     def _check_vertical(self, vertical: PiecewiseLinear) -> None:
-        """Refuse what does not go with a vertical acceleration: another base motion than samples at the same times, braces, a restrainer."""
+        """Refuse what does not go with a vertical acceleration: any base motion but samples at the same times, braces, a restrainer."""
         base, got = self.forcing, Text("both")
         allowed = "be omitted unless {forcing} is rk.PiecewiseLinear"
         if not isinstance(base, PiecewiseLinear):

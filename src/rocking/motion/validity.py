@@ -412,7 +412,11 @@ def check_contact(motion: Trajectory) -> None:
     assert vertical is not None
 
     def upward(times: Array, sides: Array) -> tuple[Array, Array]:
-        up = 1 + vertical.acceleration(times) if block is None else base_reaction(motion, block, times, sides)[1]
+        up = (
+            1 + vertical.acceleration(times)
+            if block is None
+            else base_reaction(motion, block, times, sides)[1]
+        )
         return up[None], np.ones(times.size)
 
     slow = forcing.time_scale

@@ -154,12 +154,8 @@ linear_series = series_kernel("linear_series", "g0, rate", linear_lines, ORDER)
 short_linear_series = series_kernel("short_linear_series", "g0, rate", linear_lines, SHORT_ORDER)
 brief_linear_series = series_kernel("brief_linear_series", "g0, rate", linear_lines, BRIEF_ORDER)
 biaxial_series = series_kernel("biaxial_series", "g0, rate, f0, lift", biaxial_lines, ORDER)
-short_biaxial_series = series_kernel(
-    "short_biaxial_series", "g0, rate, f0, lift", biaxial_lines, SHORT_ORDER
-)
-brief_biaxial_series = series_kernel(
-    "brief_biaxial_series", "g0, rate, f0, lift", biaxial_lines, BRIEF_ORDER
-)
+short_biaxial_series = series_kernel("short_biaxial_series", "g0, rate, f0, lift", biaxial_lines, SHORT_ORDER)
+brief_biaxial_series = series_kernel("brief_biaxial_series", "g0, rate, f0, lift", biaxial_lines, BRIEF_ORDER)
 cosine_transfer = straight_line(
     "cosine_transfer",
     "w1, s0, c0, g0, h0, frequency",

@@ -75,7 +75,9 @@ def never_returns(p, side, angle, velocity, drive):
     if heavy > light and x < 0.0:
         largest += (heavy - light) * tangent_of(-x)
     lean = x - arctangent(largest / light)
-    return lean > -math.pi and slope + 2.0 * math.sqrt(hypotenuse(light, largest)) * sine_of(0.5 * lean) >= 0.0
+    return (
+        lean > -math.pi and slope + 2.0 * math.sqrt(hypotenuse(light, largest)) * sine_of(0.5 * lean) >= 0.0
+    )
 
 
 @body(contract.arc_at, Full, inline=True)
@@ -197,7 +199,10 @@ def first_event(p, arc, peak, with_lows):
         h = min(t, step.length)
         if peak < math.inf:
             peak = peak_in(p, arc, step, drive, h, peak)
-        stiffness = weight_of(p, drive) * step.cosine - arc.side * p.block.critical_angle * acceleration_of(p, drive) * step.sine
+        stiffness = (
+            weight_of(p, drive) * step.cosine
+            - arc.side * p.block.critical_angle * acceleration_of(p, drive) * step.sine
+        )
         growth, part = growth + h * stiffness, (h / step.length) ** 4
         steps += part * part
         rise, velocity = state_in(step, h)

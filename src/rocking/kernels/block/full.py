@@ -21,7 +21,9 @@ def acceleration(p, side, angle, drive):
     """Provide ``contract.acceleration``: u'' = -r^2 (W sin(w)/alpha + sigma A cos(w)), w = alpha (s - u), with the weight W."""
     alpha, own = p.block.critical_angle, side_of(p.block, side)
     w = alpha * (own.ratio - angle)
-    return own.stiffness * (-(weight_of(p, drive) * sine_of(w)) / alpha - side * acceleration_of(p, drive) * cosine_of(w))
+    return own.stiffness * (
+        -(weight_of(p, drive) * sine_of(w)) / alpha - side * acceleration_of(p, drive) * cosine_of(w)
+    )
 
 
 @body(contract.forcing_term, Full, inline=True)

@@ -64,10 +64,11 @@ def chosen_of(union: Any) -> list[Chosen]:
     members = []
     for k, member in enumerate(get_args(union)):
         base = get_args(member)
+        place = k
         if base:  # a base may have the drives and the constants of another one
             bases = get_origin(member).__parameters__[0].__constraints__
-            k = bases.index(getattr(base[0], "LIKE", base[0]))
-        members.append(Chosen(member, k))
+            place = bases.index(getattr(base[0], "LIKE", base[0]))
+        members.append(Chosen(member, place))
     return members
 
 

@@ -4,7 +4,8 @@ Each arc adds the error of its own arithmetic, and the matrices of ``tangent`` c
 as independent, so that their squares add up.
 
 On an arc of a slender block a perturbation is a sum of e^t and e^-t, exactly. On one of a full block x'' = q(t) x, where
-q = W cos w - sigma a sin w, with the weight W. The covariance is carried with the mean of q over the arc, the first term of the Magnus series.
+q = W cos w - sigma a sin w, with the weight W. The covariance is carried with the mean of q over the arc, the first term of the Magnus
+series.
 
 An arc of a slender block ends as computed if K+ exceeds its error: no more is to be known, because the equation is linear. Of a full
 block the error at the end of the arc must be small. For a size d of the error, terms of its second order are alpha d^2 at most. So

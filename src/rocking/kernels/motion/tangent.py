@@ -18,10 +18,10 @@ from rocking.kernels.contract import (
     has_wall,
     restitution_at,
     restoring_acceleration,
-    weight_of,
     sensitivities,
     transfer,
     transfer_to_event,
+    weight_of,
 )
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAVE, NONE
 from rocking.kernels.library.kernel import kernel

@@ -29,8 +29,8 @@ as is wanted. Each repetition allows larger excesses, so that the error of W cau
 import math
 
 from rocking.kernels import contract
-from rocking.kernels.arc.full_series import brief_biaxial_series, brief_divided_1, brief_linear_series
 from rocking.kernels.arc.full_biaxial import pushes_at
+from rocking.kernels.arc.full_series import brief_biaxial_series, brief_divided_1, brief_linear_series
 from rocking.kernels.arc.full_step import lean_of, state_in, step_from
 from rocking.kernels.arc.slender_samples import means_at
 from rocking.kernels.base.biaxial import Biaxial
