@@ -6,12 +6,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 import attrs
+import flint
 import numpy as np
 import pytest
+from numba import njit
 
 import rocking as rk
 from oracles import full_taylor
 from oracles import vertical as oracle
+from rocking.kernels.arc import full_step
+from rocking.kernels.base.samples import SampledDrive
+from rocking.motion import march_loop
 
 RECORD = Path(__file__).parents[3] / "shared" / "records" / "20161113_110259_WTMC_20.V2A"
 BLOCK = rk.Block(2.0, 0.6)
@@ -355,3 +360,46 @@ def test_results_state_the_vertical_acceleration():
     np.testing.assert_allclose(data.weight.values, expected, rtol=1e-12)
     assert data.attrs["vertical_least_g"] == pytest.approx(-2 / G)
     assert motion.to_dict()["vertical_largest_g"] == pytest.approx(2 / G)
+
+
+def test_error_of_a_step_is_below_its_bound():
+    """Against series of order 30 in balls of 50 digits, from critical angles of 1.2 down to that with which slender blocks are followed."""
+    step, state = full_step.step_from, full_step.state_in
+
+    @njit
+    def take(p, side, angle, velocity, drive):
+        made = step(p, side, angle, velocity, drive)
+        return made, state(made, made.length)
+
+    rng, arb = np.random.default_rng(2), flint.arb
+    for k in range(40):
+        alpha = march_loop.SMALL if k % 4 == 0 else float(rng.uniform(0.05, 1.2))
+        base = rk.PiecewiseLinear(rng.normal(size=6) * 2.0, step=0.3)
+        up = rk.PiecewiseLinear(rng.uniform(-0.9, 0.9, size=6), step=0.3)
+        system = rk.System(base, 0.9, critical_angle=None if k % 4 == 0 else alpha, vertical=up)
+        p, place = (
+            march_loop.parameters(system),
+            SampledDrive(int(rng.integers(5)), float(rng.uniform(0.0, 0.29))),
+        )
+        side, angle, velocity = (
+            int(rng.choice([-1, 1])),
+            float(rng.uniform(0.0, 1.2)),
+            float(rng.uniform(-1.0, 1.0)),
+        )
+        made, (rise, _speed) = take(p, side, angle, velocity, place)
+        with flint.ctx.workdps(50):
+            u, v, h = arb(angle), arb(velocity), arb(made.length) / 4
+            rows = [
+                [arb(float(one)) for one in each[place.index : place.index + 2]]
+                for each in (base.values, up.values)
+            ]
+            (push, rate), (lift, climb) = ((one, (two - one) / arb(base.step)) for one, two in rows)
+            for part in range(4):
+                t = arb(place.offset) + part * h
+                c = full_taylor.series(
+                    arb(alpha), side, u, v, push + rate * t, rate, 1 + lift + climb * t, climb
+                )
+                u, v = full_taylor.value(c, h)
+            error = abs(float((u - arb(angle) - arb(rise)).mid()))
+        assert made.length > 1e-3
+        assert error <= full_step.ERROR + 2**-51 * (abs(rise) + made.length * (1 + np.abs(base.values).max()))

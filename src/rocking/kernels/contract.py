@@ -316,6 +316,14 @@ def largest_near(p, drive, radius):
 
 
 @contract
+def acceleration_near(p, side, sine, change, drive, radius):
+    """Return an upper bound of alpha |u''| in the complex disc around an instant.
+
+    There w is within ``change`` of its value at the instant, where r^2 sin w = ``sine``.
+    """
+
+
+@contract
 def drive_after_event(p, start, coming):
     """Return the drive of an arc that starts with an event, at a time of the clock."""
 

@@ -12,7 +12,8 @@ from rocking.kernels.arc.full_series import biaxial_series, biaxial_transfer, sh
 from rocking.kernels.base.biaxial import Biaxial, change_of_weight, weight_at, weight_in
 from rocking.kernels.base.samples import interval, last_index
 from rocking.kernels.library.kernel import body, kernel
-from rocking.kernels.system import Full, Slender, Unsymmetric
+from rocking.kernels.numerics.elementary import exponential_bound
+from rocking.kernels.system import Full, Slender, Unsymmetric, side_of
 
 
 @body(contract.weight_of, Full, inline=True)
@@ -85,14 +86,32 @@ def transfer_series(p, side, slope, sine, cosine, drive):
     return biaxial_transfer(slope, sine, cosine, push, rate, weight, lift)
 
 
+@kernel(inline=True)
+def sizes_around(p, drive, time):
+    """Return upper bounds of |A| and |V| within a time, on a line as on a circle."""
+    (start, rate), (weight, lift) = interval(p, drive.index), weight_in(p, drive.index)
+    horizontal = abs(start + rate * drive.offset) + abs(rate) * time
+    return horizontal, abs(weight - 1.0 + lift * drive.offset) + abs(lift) * time
+
+
 @body(contract.largest_within, Full, Biaxial, inline=True)
 @body(contract.largest_near, Full, Biaxial, inline=True)
 def largest_around(p, drive, time):
-    """Provide ``contract.largest_within`` and ``contract.largest_near``: |A| + |V|/alpha, on a line as on a circle."""
-    (start, rate), (weight, lift) = interval(p, drive.index), weight_in(p, drive.index)
-    horizontal = abs(start + rate * drive.offset) + abs(rate) * time
-    vertical = abs(weight - 1.0 + lift * drive.offset) + abs(lift) * time
+    """Provide ``contract.largest_within`` and ``contract.largest_near``: |A| + |V|/alpha."""
+    horizontal, vertical = sizes_around(p, drive, time)
     return horizontal + vertical / p.block.critical_angle
+
+
+@body(contract.acceleration_near, Full, Biaxial, inline=True)
+def acceleration_near(p, side, sine, change, drive, radius):
+    """Provide ``contract.acceleration_near``, also for a small alpha.
+
+    With |w - w0| = x, |sin w| <= |sin w0| cosh x + sinh x <= (|sin w0| + x) exp x, and |cos w| <= exp x.
+    """
+    horizontal, vertical = sizes_around(p, drive, radius)
+    stiffness = side_of(p.block, side).stiffness
+    turning = (1.0 + vertical) * (abs(sine) + stiffness * change)
+    return (turning + stiffness * p.block.critical_angle * horizontal) * exponential_bound(change)
 
 
 @body(contract.brace_settling_time, Full, Biaxial, inline=True)

@@ -12,16 +12,18 @@ bounds the acceleration on |t| = h. And cosh x is at most exp(x^2/2) <= 1/(1 - x
 import math
 from typing import NamedTuple
 
+from rocking.kernels import contract
 from rocking.kernels.arc.arc import Transfer
 from rocking.kernels.arc.full_series import ORDER, SHORT_ORDER, divided_1, short_divided_1, short_sizes, sizes
 from rocking.kernels.contract import (
+    acceleration_near,
     largest_near,
     largest_within,
     series_from,
     smooth_time,
     transfer_series,
 )
-from rocking.kernels.library.kernel import kernel
+from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.numerics.elementary import (
     exponential_bound,
     fma,
@@ -29,7 +31,7 @@ from rocking.kernels.numerics.elementary import (
     rough_log2,
     sine_and_cosine,
 )
-from rocking.kernels.system import side_of
+from rocking.kernels.system import Full, side_of
 
 # With it most bounds hold at once.
 TOLERANCE = 6e-18
@@ -85,12 +87,18 @@ def ends_at_corner(c, corner, order):
     return abs(c[order - 3]) * power <= TOLERANCE and abs(c[order - 2]) * (power * corner) <= TOLERANCE
 
 
-@kernel(inline=True)
-def error_bound(p, side, velocity, series, h, drive, truncation):
-    """Return the bound of the module's text of |u - p| up to a time h of a step.
+@body(contract.acceleration_near, Full, inline=True)
+def acceleration_near_place(p, side, sine, change, drive, radius):
+    """Provide ``contract.acceleration_near``: |sin w| and |cos w| are at most exp |w - w0|."""
+    push = side_of(p.block, side).stiffness * (1.0 + p.block.critical_angle * largest_near(p, drive, radius))
+    return push * exponential_bound(change)
 
-    M is at most w'' of the polynomial and the acceleration that it should have, on the circle. There |sin w| and |cos w| are
-    at most exp |w - w0|.
+
+@kernel(inline=True)
+def error_bound(p, side, velocity, series, sine, h, drive, truncation):
+    """Return the bound of the module's text of |u - p| up to a time h of a step, which starts where r^2 sin w = ``sine``.
+
+    M is at most w'' of the polynomial and the acceleration that it should have, on the circle.
     """
     alpha, n, radius = p.block.critical_angle, truncation.order, truncation.radius * h
     stiffness = side_of(p.block, side).stiffness
@@ -98,8 +106,7 @@ def error_bound(p, side, velocity, series, h, drive, truncation):
         change, bend = short_sizes(velocity, series, radius)
     else:
         change, bend = sizes(velocity, series, radius)
-    push = stiffness * (1.0 + alpha * largest_near(p, drive, radius))
-    largest = alpha * bend + push * exponential_bound(alpha * change)
+    largest = alpha * bend + acceleration_near(p, side, sine, alpha * change, drive, radius)
     half = 0.5 * (stiffness * (1.0 + alpha * largest_near(p, drive, h))) * h * h
     if half >= 1.0:
         return math.inf
@@ -136,7 +143,7 @@ def step_from(p, side, angle, velocity, drive):
     if corner < NEAR:
         c = series_at(p, side, angle, velocity, sine, cosine, drive, True)
         near = ends_at_corner(c, corner, SHORT_ORDER)
-        if near and error_bound(p, side, velocity, c, corner, drive, SHORT) <= ERROR:
+        if near and error_bound(p, side, velocity, c, sine, corner, drive, SHORT) <= ERROR:
             return Step(angle, velocity, c, corner, True, True, sine, cosine)
     c = series_at(p, side, angle, velocity, sine, cosine, drive, False)
     if corner < 1.0 and ends_at_corner(c, corner, ORDER):
@@ -146,7 +153,7 @@ def step_from(p, side, angle, velocity, drive):
             min(log_time_of_term(c[ORDER - 2], ORDER), log_time_of_term(c[ORDER - 3], ORDER - 1))
         )
         to_corner, length = corner <= length, min(length, corner)
-    while not error_bound(p, side, velocity, c, length, drive, LONG) <= ERROR and length > SHORTEST:
+    while not error_bound(p, side, velocity, c, sine, length, drive, LONG) <= ERROR and length > SHORTEST:
         to_corner, length = False, SHORTER * length
     return Step(angle, velocity, c, length, to_corner, False, sine, cosine)
 
