@@ -130,7 +130,7 @@ def symbol_of(each: Assessment, name: str = "") -> str:
 
 def block_table(block: Block) -> Shown:
     """Return the properties of a block."""
-    both = partial(_both, block.left is not None and block.wall is None)
+    both = partial(_both, block.is_unsymmetric)
     degrees = [f"{math.degrees(angle):.2f}°" for angle in block.critical_angles]
     lift = [f"{math.tan(angle):.3f} g" for angle in block.critical_angles]
     e = block.restitution, block.left_restitution

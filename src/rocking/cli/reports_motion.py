@@ -372,7 +372,7 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     """Yield the rows of the block and its initial state."""
     yield "block", f"{block.size}, Io/(MR²) = {block.inertia_ratio:.4g}"
     angles = [f"{math.degrees(angle):.4g}°" for angle in block.critical_angles]
-    both = block.left is not None and block.wall is None
+    both = block.is_unsymmetric
     sides = f" for θ > 0, {angles[1]} for θ < 0" if both else ""
     yield "critical angle", f"{angles[0]}{sides}"
     full = motion.system.critical_angle is not None
@@ -416,7 +416,7 @@ def record_rows(motion: Motion, block: Block, friction: float | None) -> Iterato
     """Yield the rows of the result."""
     yield "impacts", counted_impacts(motion)
     if motion.overturning is None:
-        side = "" if block.left is None or block.wall else " of θ > 0"
+        side = " of θ > 0" if block.is_unsymmetric else ""
         unit = angle_symbol(block)
         yield "largest |θ|", f"{reach(motion.peak, block)}, {motion.peak:.4g} {unit}{side}"
     yield margin_name(motion), margin_text(motion, block)

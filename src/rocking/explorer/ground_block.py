@@ -108,7 +108,7 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
 
 def _sides(block: Block) -> Facts:
     """Return R, θcr and e, of both sides of an unsymmetric block."""
-    if block.left is None or block.wall is not None:
+    if not block.is_unsymmetric:
         return [
             ("R", f"{block.radius:.4g} m"),
             ("θcr", f"{block.degrees(1.0):.4g}°"),
@@ -161,7 +161,7 @@ def margin_in_words(motion: Motion, block: Block) -> str:
     if math.isnan(motion.margin):
         return "The block never lifts off."
     size, time = abs(motion.margin), block.seconds(motion.margin_time)
-    side = " of its side" if block.left is not None and block.wall is None else ""
+    side = " of its side" if block.is_unsymmetric else ""
     speed = f"{size:.3g} α θcr{side} = {math.degrees(abs(margin_speed(motion, block))):.3g} °/s"
     if motion.margin >= 0.0:
         return f"Closest decision at t = {time:.4g} s: the block was faster than it had to be to overturn, by {speed}."

@@ -523,6 +523,11 @@ class Block(Dimensions):
         return self.offset == 0 and self.left_restitution == self.restitution
 
     @property
+    def is_unsymmetric(self) -> bool:
+        """Flag: the block turns to both sides, and these differ. A block against a wall turns to one side."""
+        return self.wall is None and not self.has_equal_sides
+
+    @property
     def left(self) -> Side | None:
         """Side θ < 0 in units of side 1 if it differs, or the wall there; None for a symmetric block."""
         if self.wall is not None:

@@ -375,7 +375,7 @@ def compared(motion: Trajectory) -> tuple[str, str]:
 
 def degrees_and_share(block: Block, angle: float) -> str:
     """Return an angle in degrees and in units of the critical angle, of an unsymmetric block that of θ > 0."""
-    side = "" if block.left is None or block.wall else " of θ > 0"
+    side = " of θ > 0" if block.is_unsymmetric else ""
     return f"{block.degrees(angle):.4g}°, {angle:.4g} θcr{side}"
 
 

@@ -78,7 +78,7 @@ class Scene:
         self.parts.append(Line2D([0], [-0.6 * deep], marker="v", color=style.IMPACT, markersize=8))
         self.centres = np.array([mass_centre(block, outline) for outline in self.outlines])
         self.centre = Line2D(*self.centres[:1].T, marker="o", color=style.MOTION, markersize=6)
-        if block.left is not None and block.wall is None:
+        if block.is_unsymmetric:
             self.parts.append(self.centre)
         feet = self.outlines[:, :2].mean(axis=1)
         self.restrainers = np.stack([np.zeros_like(feet) - (0.0, deep), feet], axis=1)
@@ -293,8 +293,7 @@ def schematic(ax: Axes | None = None, block: Block | None = None, *, lean: float
     if block.restrainer is not None:
         ax.add_line(restrainer_of(np.array([0.0, -0.16 * height]), tilted[:2].mean(axis=0)))
     _sides(ax, tilted, height, right=block.wall is not None)
-    both = block.left is not None and block.wall is None
-    _centre(ax, tilted, mass_centre(block, tilted), height, both=both)
+    _centre(ax, tilted, mass_centre(block, tilted), height, both=block.is_unsymmetric)
     _angles(ax, tilted, height, block, angle)
     for corner, name in ((tilted[1], "$O$"), (tilted[0], "$O'$")):
         ax.plot(*corner, "o", color=style.INK, markersize=3.5)
@@ -363,13 +362,12 @@ def _angles(ax: Axes, tilted: NDArray, height: float, block: Block, angle: float
     )
     side = 90.0 - math.degrees(angle)
     right, left = map(math.degrees, block.critical_angles)
-    both = block.left is not None and block.wall is None
-    own = r"\theta_\mathrm{cr}" if not both else r"\theta_{\mathrm{cr},1}"
+    own = r"\theta_{\mathrm{cr},1}" if block.is_unsymmetric else r"\theta_\mathrm{cr}"
     arcs = [
         (pivot, 0.72 * height, side, 90.0, r"$\theta$", SHAKEN),
         (pivot, 0.36 * height, side, side + right, f"${own}$", style.MOTION),
     ]
-    if both:
+    if block.is_unsymmetric:
         arcs.append((tilted[0], 0.36 * height, side - left, side, r"$\theta_{\mathrm{cr},2}$", style.MOTION))
     for pivot, radius, side, last, name, colour in arcs:
         ax.add_patch(
