@@ -14,9 +14,7 @@ from rocking.cli.options import InvalidInput, option
 from rocking.cli.output import Report, Row, Text
 from rocking.cli.reports import (
     SMALL_ANGLES,
-    angle_symbol,
     angle_warning,
-    block_warnings,
     equation,
     in_si,
     input_rows,
@@ -33,6 +31,7 @@ from rocking.model.system import State, System
 from rocking.model.tables_and_json import headed
 from rocking.model.text import counted, ordinal
 from rocking.model.verdict import Outcome, Verdict
+from rocking.motion.model_warnings import angle_symbol, restrained_warnings
 from rocking.motion.motion import has_cycles, margin_speed
 
 if TYPE_CHECKING:
@@ -223,9 +222,7 @@ def unassessed(motion: Motion) -> list[str]:
     block = motion.system.block
     if block is None or block.restrainer is None:
         return [unchecked(motion)]
-    reached = float(block.radians(min(motion.peak, 1.0)))
-    own = block_warnings(block, (), motion.system.restitution, angle=reached)
-    return ["sliding and jumping of a restrained block are not checked", *own]
+    return [*restrained_warnings(block, motion.peak, motion.system.restitution)]
 
 
 def unchecked(motion: Motion) -> str:
