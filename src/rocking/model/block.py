@@ -13,10 +13,12 @@ from rocking.model.block_formulas import (
     GRAVITY,
     NORMALISATIONS,
     Dimensions,
+    RestrainedUnits,
     acceleration_unit_g,
     frequency_in_hertz,
     frequency_parameter,
     housner_restitution,
+    restrained_units,
     with_unit,
 )
 from rocking.model.forcing import BaseMotion, Forcing, Harmonic
@@ -397,18 +399,18 @@ class Block(Dimensions):
         )
 
     @property
+    def _units(self) -> RestrainedUnits:
+        return restrained_units(self.stiffness_ratio, self.prestress_ratio)
+
+    @property
     def angle_unit(self) -> float:
         """Angle of the unstable balance in radians, the unit of normalised angles: θcr, with a restrainer θcr(1 + ρ)/(1 − κ)."""
-        if self.restrainer is None:
-            return self.critical_angle
-        return self.critical_angle * (1.0 + self.prestress_ratio) / (1.0 - self.stiffness_ratio)
+        return self.critical_angle * self._units.angle
 
     @property
     def rate_unit(self) -> float:
         """Inverse of the unit of time in 1/s: α, with a restrainer α√(1 − κ)."""
-        if self.restrainer is None:
-            return self.frequency_parameter
-        return self.frequency_parameter * math.sqrt(1.0 - self.stiffness_ratio)
+        return self.frequency_parameter * self._units.rate
 
     @property
     def size(self) -> str:
@@ -682,8 +684,7 @@ class Block(Dimensions):
     @property
     def acceleration_unit_g(self) -> float:
         """Base acceleration in g that is 1 if it is normalised: θcr or tan θcr, as `normalised_by` says, times 1 + ρ."""
-        unit = acceleration_unit_g(self.critical_angle, self.normalised_by)
-        return unit if self.restrainer is None else unit * (1.0 + self.prestress_ratio)
+        return acceleration_unit_g(self.critical_angle, self.normalised_by) * self._units.acceleration
 
     def acceleration(self, amplitude: Any) -> Any:
         """Base acceleration a_x in m/s², from a normalised amplitude A: A g θcr or A g tan θcr, as `normalised_by` says."""

@@ -16,9 +16,11 @@ from rocking.kernels import system as numbers
 from rocking.model.block import INERTIA_RATIOS, RECTANGLE, Block
 from rocking.model.block_formulas import (
     GRAVITY,
+    RestrainedUnits,
     acceleration_unit_g,
     frequency_parameter,
     housner_restitution,
+    restrained_units,
 )
 from rocking.model.forcing import SINES, Pulse
 from rocking.model.ground_motion import GroundMotion
@@ -507,8 +509,7 @@ class MotionSpec(SurveySpec):
         own = np.array([self.intensities[number] for number in record.tolist()])
         factor = self.measure.factor(arguments["level"], own, alpha, slenderness)
         factor = factor * arguments["polarity"] / self.acceleration_units(slenderness)
-        if "stiffness_ratio" in arguments:
-            alpha, slenderness = self.restrained(alpha, slenderness)
+        alpha, slenderness = alpha * self.units.rate, slenderness * self.units.angle
         return Runs(
             self.motions,
             record,
@@ -527,13 +528,14 @@ class MotionSpec(SurveySpec):
 
     def acceleration_units(self, slenderness: np.ndarray) -> np.ndarray:
         """Return the base accelerations in m/s² that are 1 if they are normalised, for critical angles in rad."""
-        units = GRAVITY * _each(acceleration_unit_g, slenderness, self.normalised_by)
-        return units * (1.0 + self.fixed["prestress_ratio"]) if "prestress_ratio" in self.fixed else units
+        own = _each(acceleration_unit_g, slenderness, self.normalised_by)
+        return GRAVITY * (own * self.units.acceleration)
 
-    def restrained(self, alpha: np.ndarray, slenderness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the inverse unit of time and the unit of angles of restrained blocks, from those of the free ones."""
-        kappa, rho = self.fixed["stiffness_ratio"], self.fixed["prestress_ratio"]
-        return alpha * math.sqrt(1.0 - kappa), slenderness * (1.0 + rho) / (1.0 - kappa)
+    @property
+    def units(self) -> RestrainedUnits:
+        """Units of the blocks over those of free ones."""
+        ratios = (self.fixed.get(name, 0.0) for name in ("stiffness_ratio", "prestress_ratio"))
+        return restrained_units(*ratios)
 
     def streams(self, record: np.ndarray, sample: np.ndarray) -> np.ndarray:
         """Return the numbers (n,) of the sequences of deviations: one for each record and sample, at all levels alike."""
