@@ -287,6 +287,7 @@ RAISED = [
     (TooShort("too short", rk.State(angle=0.5)), {"estimate": rk.State(angle=0.5)}),
     (NoOrbit("none", 1.0, rk.State(angle=0.5), 0.1), {"phase": 1.0, "state": rk.State(angle=0.5), "residual": 0.1}),
     (TooManyEvents("too many"), {}),
+    (rk.RecordError("no step", "step"), {"argument": "step"}),
     (StoreError("damaged"), {}),
     (WriteError("full"), {}),
     (InvalidInput("mistyped"), {"message": "mistyped"}),
