@@ -352,6 +352,9 @@ REFUSED = {
         f"{MAP} --store map --tiles ./map": "--store and --tiles must differ; got 'map' for both",
         f"{MAP} --plot map.png --tiles map.png": "--tiles and --plot must differ; got 'map.png' for both",
         f"{MAP} --store=": "--store must be the path of a folder; got ''",
+        f"{MAP} --store {__file__}": f"--store must be the path of a folder; got {__file__!r}, which is a file",
+        f"{MAP} --store {__file__}/map": "--store must be a folder that can be written; got",
+        f"{MAP} --store {Path(__file__).parent}": "--store must be a new folder, or the folder of an earlier survey; got",
         f"{MAP} --tiles .": "--tiles must not contain the working directory; got '.'",
         f"{MAP} --tiles {Path(__file__).parent}": "--tiles must be new, empty, or hold only an earlier index.html with its files; got "
         f"{str(Path(__file__).parent)!r}, which holds other files",
