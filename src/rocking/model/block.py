@@ -13,19 +13,17 @@ from rocking.model.block_formulas import (
     GRAVITY,
     NORMALISATIONS,
     Dimensions,
-    RestrainedUnits,
     acceleration_unit_g,
     frequency_in_hertz,
     frequency_parameter,
     housner_restitution,
-    restrained_units,
     with_unit,
 )
 from rocking.model.forcing import BaseMotion, Forcing, Harmonic
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, LEFT_RESTITUTION, SIZES
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, checked_law, law_of
-from rocking.model.restrainer import Restrainer, checked_restrainer
+from rocking.model.restrainer import RestrainedUnits, Restrainer, checked_restrainer, restrained_units
 from rocking.model.section import SYMMETRIC, section_of
 from rocking.model.system import (
     MODELS,

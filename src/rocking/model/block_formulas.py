@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from attrs import evolve
 
@@ -27,26 +27,6 @@ def frequency_parameter(radius: float, inertia_ratio: float) -> float:
 def housner_restitution(critical_angle: float, inertia_ratio: float) -> float:
     """Return Housner's (1963) coefficient of restitution, 1 − 2 sin²θcr/(Io/MR²); 1 − (3/2) sin²θcr for a uniform rectangle."""
     return 1 - 2 * math.sin(critical_angle) ** 2 / inertia_ratio
-
-
-class RestrainedUnits(NamedTuple):
-    """Units of a restrained block over those of the free one."""
-
-    angle: float
-    rate: float
-    acceleration: float
-
-
-def restrained_units(stiffness_ratio: float, prestress_ratio: float) -> RestrainedUnits:
-    """Return the units for the ratios κ and ρ of a restrainer: (1 + ρ)/(1 − κ), √(1 − κ) and 1 + ρ; 1 without it.
-
-    Examples
-    --------
-    >>> restrained_units(stiffness_ratio=0.75, prestress_ratio=0.5)
-    RestrainedUnits(angle=6.0, rate=0.5, acceleration=1.5)
-    """
-    kept, force = 1.0 - stiffness_ratio, 1.0 + prestress_ratio
-    return RestrainedUnits(force / kept, math.sqrt(kept), force)
 
 
 def frequency_in_hertz(frequency_hz: float | None, period_s: float | None, low: float, high: float) -> float:

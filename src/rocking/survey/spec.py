@@ -16,17 +16,16 @@ from rocking.kernels import system as numbers
 from rocking.model.block import INERTIA_RATIOS, RECTANGLE, Block
 from rocking.model.block_formulas import (
     GRAVITY,
-    RestrainedUnits,
     acceleration_unit_g,
     frequency_parameter,
     housner_restitution,
-    restrained_units,
 )
 from rocking.model.forcing import SINES, Pulse
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.quantity import CRITICAL_ANGLE, LEFT_QUANTITIES, RUN_QUANTITIES, SYSTEM_QUANTITIES
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, scatter_attributes
+from rocking.model.restrainer import RestrainedUnits, restrained_units
 from rocking.model.system import (
     MODELS,
     NO_BRACES,
