@@ -124,7 +124,7 @@ class GroundView(View):
     @property
     def restrainer(self) -> Restrainer | None:
         """Restrainer of the block; None without a stiffness and a force."""
-        if self.mass is None or self.stiffness is self.prestress is None:
+        if self.mass is None or (self.stiffness is None and self.prestress is None):
             return None
         return Restrainer(self.stiffness or 0.0, self.prestress or 0.0, self.mass)
 
