@@ -10,6 +10,7 @@ from itertools import combinations
 from pathlib import Path
 
 import numpy as np
+from attrs import evolve
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -512,7 +513,7 @@ class _Film:
     """Frames of a motion at the instants `times` (τ): a scene above the time history, with a moving dot."""
 
     def __init__(self, motion: Motion, block: Block | None, times: NDArray, seconds: float) -> None:
-        body = block or in_units_of(motion.block, NOMINAL)
+        body = evolve(block or in_units_of(motion.block, NOMINAL), wall=motion.system.wall)
         self.times, self.units = times, units_of(block)
         flat = body.angle(degrees=90)
         # a fallen block stays down: the motion is evaluated only up to the end of the fall
@@ -534,7 +535,8 @@ class _Film:
             curve.set_data(time, np.clip(angle, self.units.angle(-flat), self.units.angle(flat)))
             below.set_xlim(self.units.time(times[0]), time[-1])
             most = 1.5 * min(max(motion.peak, 1.0), flat)
-            below.set_ylim(self.units.angle(-most), self.units.angle(most))
+            least = -most if motion.system.wall is None else -0.05 * most
+            below.set_ylim(self.units.angle(least), self.units.angle(most))
         self.cursor = below.axvline(0.0, color=style.IMPACT, linewidth=style.LINE, animated=True)
         (self.dot,) = below.plot([], [], "o", color=style.IMPACT, markersize=7, animated=True, zorder=5)
         self.reading = self._write(0.02, "", style.TEXT + 4, ha="left", animated=True)

@@ -264,16 +264,16 @@ def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Blo
 
 
 def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right: bool) -> None:
-    """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it."""
+    """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it; none on the side of a wall."""
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
-        left = 1.0 if system.left is None or system.wall else system.left.angle_ratio
+        left = 1.0 if system.left is None else 0.0 if system.wall else system.left.angle_ratio
         restrained = system.block is not None and system.block.restrainer is not None
         name = "unstable balance" if restrained else "critical angle"
         levels, colour, dashes = (left, 1.0), style.GUIDE, "dotted"
     else:
         levels, colour, dashes, name = (system.braces.angle,) * 2, style.BRACE, "dashed", "braces"
-    if largest > 0.5 * min(levels):
+    if largest > 0.5 * min(filter(None, levels)):
         _pair(ax, tuple(map(units.angle, levels)), colour, dashes, name, at_right=at_right)
 
 
