@@ -16,7 +16,7 @@ from rocking.model.validation import Refusal, WrongType, instance, refuse_if, wi
 from rocking.model.verdict import Outcome
 from rocking.motion.motion import Motion, end_shown, fallen, has_cycles
 from rocking.plot import figures, style
-from rocking.plot.axes import Units, units_of
+from rocking.plot.axes import Units, balance_symbol, units_of
 from rocking.plot.sections import section
 
 SAMPLES_PER_TIME = 64
@@ -211,7 +211,7 @@ def _outcome(motion: Motion) -> str:
         return {Outcome.AT_REST: "comes to rest", Outcome.BOUNDED: "rocks until the end"}[motion.outcome]
     if motion.system.critical_angle is not None:
         return "overturns, lies flat at the end"
-    return rf"overturns, drawn to {fallen(motion):g} $\theta_\mathrm{{cr}}$"
+    return f"overturns, drawn to {fallen(motion):g} ${balance_symbol(motion.system.block)}$"
 
 
 def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
