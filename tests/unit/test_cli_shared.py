@@ -304,6 +304,8 @@ REFUSED = {
         f"push.csv {SI} --restitution 2": "--restitution must lie in [0, 1]; got 2",
         f"push.csv {SI} --friction 0": "--friction must lie in [0.001, 10]; got 0",
         "push.csv --height 2": "missing --width: give --height and --width",
+        "push.csv --height 2 --width 1 --wall 0.5 --restitution 0.9": "give --restitution or --wall, not both",
+        "push.csv --height 2 --width 1 --wall 0.5 --restitution-scatter 0.1:normal:1": "give --restitution-scatter or --wall, not",
     },
     "slide": {
         "--friction 0.3": "Missing argument 'FILE'.",
