@@ -14,9 +14,7 @@ from rocking.cli.options import InvalidInput, option
 from rocking.cli.output import Report, Row, Text
 from rocking.cli.reports import (
     SMALL_ANGLES,
-    angle_symbol,
     angle_warning,
-    block_warnings,
     equation,
     in_si,
     input_rows,
@@ -33,6 +31,7 @@ from rocking.model.system import State, System
 from rocking.model.tables_and_json import headed
 from rocking.model.text import counted, ordinal
 from rocking.model.verdict import Outcome, Verdict
+from rocking.motion.model_warnings import angle_symbol, restrained_warnings
 from rocking.motion.motion import has_cycles, margin_speed
 
 if TYPE_CHECKING:
@@ -225,9 +224,7 @@ def unassessed(motion: Motion) -> list[str]:
     block = motion.system.block
     if block is None or block.restrainer is None:
         return [unchecked(motion)]
-    reached = float(block.radians(min(motion.peak, 1.0)))
-    own = block_warnings(block, (), motion.system.restitution, angle=reached)
-    return ["sliding and jumping of a restrained block are not checked", *own]
+    return [*restrained_warnings(block, motion.peak, motion.system.restitution)]
 
 
 def unchecked(motion: Motion) -> str:
@@ -381,7 +378,7 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     """Yield the rows of the block and its initial state."""
     yield "block", f"{block.size}, Io/(MR²) = {block.inertia_ratio:.4g}"
     angles = [f"{math.degrees(angle):.4g}°" for angle in block.critical_angles]
-    both = block.left is not None and block.wall is None
+    both = block.is_unsymmetric
     sides = f" for θ > 0, {angles[1]} for θ < 0" if both else ""
     yield "critical angle", f"{angles[0]}{sides}"
     full = motion.system.critical_angle is not None
@@ -425,7 +422,7 @@ def record_rows(motion: Motion, block: Block, friction: float | None) -> Iterato
     """Yield the rows of the result."""
     yield "impacts", counted_impacts(motion)
     if motion.overturning is None:
-        side = "" if block.left is None or block.wall else " of θ > 0"
+        side = " of θ > 0" if block.is_unsymmetric else ""
         unit = angle_symbol(block)
         yield "largest |θ|", f"{reach(motion.peak, block)}, {motion.peak:.4g} {unit}{side}"
     yield margin_name(motion), margin_text(motion, block)

@@ -176,10 +176,13 @@ def select(options: Options, *names: str) -> dict[str, Any]:
 
 def restitution_of(options: Options) -> float | Restitution | None:
     """Return the restitution of a block of the options; InvalidInput if invalid."""
-    given = [name for name in ("restitution", *LAWS[:2]) if name in options]
-    if len(given) > 1:
-        raise InvalidInput(f"give {option(given[0])} or {option(given[1])}, not both")
-    if not given and "restitution_scatter" not in options:
+    given = [name for name in ("restitution", *LAWS) if name in options]
+    alone = [name for name in given if name != "restitution_scatter"]
+    if "wall" in options:
+        alone = [*given, "wall"]
+    if len(alone) > 1:
+        raise InvalidInput(f"give {option(alone[0])} or {option(alone[1])}, not both")
+    if not given:
         return None
     names = {"rows": "restitution_table", "factor": "restitution_factor", "value": "restitution"}
     typed = {name: option(each) for name, each in names.items()}

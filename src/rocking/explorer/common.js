@@ -339,6 +339,13 @@ function frame() {
     ink.strokeRect(-half - thick, -1.04 * tall, thick, 1.04 * tall);
     for (let at = 0; at > -1.04 * tall; at -= thick) { ink.beginPath(); ink.moveTo(-half - thick, at); ink.lineTo(-half, Math.max(at - thick, -1.04 * tall)); ink.stroke(); }
   }
+  if (film.restrained) {
+    const pivot = turn > 0 ? half : -half;
+    ink.strokeStyle = inks.edge;
+    ink.lineWidth = 3;
+    ink.beginPath(); ink.moveTo(0, 9); ink.lineTo(pivot * (1 - Math.cos(turn)), -pivot * Math.sin(turn)); ink.stroke();
+    ink.lineWidth = 1;
+  }
   ink.translate(turn > 0 ? half : -half, 0);
   ink.rotate(turn);
   ink.translate(turn > 0 ? -half : half, 0);

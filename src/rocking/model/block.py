@@ -24,7 +24,7 @@ from rocking.model.forcing import BaseMotion, Forcing, Harmonic, PiecewiseLinear
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, LEFT_RESTITUTION, SIZES
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, checked_law, law_of
-from rocking.model.restrainer import Restrainer, checked_restrainer
+from rocking.model.restrainer import RestrainedUnits, Restrainer, checked_restrainer, restrained_units
 from rocking.model.section import SYMMETRIC, section_of
 from rocking.model.system import (
     MODELS,
@@ -407,18 +407,18 @@ class Block(Dimensions):
         )
 
     @property
+    def _units(self) -> RestrainedUnits:
+        return restrained_units(self.stiffness_ratio, self.prestress_ratio)
+
+    @property
     def angle_unit(self) -> float:
         """Angle of the unstable balance in radians, the unit of normalised angles: θcr, with a restrainer θcr(1 + ρ)/(1 − κ)."""
-        if self.restrainer is None:
-            return self.critical_angle
-        return self.critical_angle * (1.0 + self.prestress_ratio) / (1.0 - self.stiffness_ratio)
+        return self.critical_angle * self._units.angle
 
     @property
     def rate_unit(self) -> float:
         """Inverse of the unit of time in 1/s: α, with a restrainer α√(1 − κ)."""
-        if self.restrainer is None:
-            return self.frequency_parameter
-        return self.frequency_parameter * math.sqrt(1.0 - self.stiffness_ratio)
+        return self.frequency_parameter * self._units.rate
 
     @property
     def size(self) -> str:
@@ -531,6 +531,11 @@ class Block(Dimensions):
     def has_equal_sides(self) -> bool:
         """Flag: the block is symmetric, and its impacts do not differ by their direction."""
         return self.offset == 0 and self.left_restitution == self.restitution
+
+    @property
+    def is_unsymmetric(self) -> bool:
+        """Flag: the block turns to both sides, and these differ. A block against a wall turns to one side."""
+        return self.wall is None and not self.has_equal_sides
 
     @property
     def left(self) -> Side | None:
@@ -702,8 +707,7 @@ class Block(Dimensions):
     @property
     def acceleration_unit_g(self) -> float:
         """Base acceleration in g that is 1 if it is normalised: θcr or tan θcr, as `normalised_by` says, times 1 + ρ."""
-        unit = acceleration_unit_g(self.critical_angle, self.normalised_by)
-        return unit if self.restrainer is None else unit * (1.0 + self.prestress_ratio)
+        return acceleration_unit_g(self.critical_angle, self.normalised_by) * self._units.acceleration
 
     def acceleration(self, amplitude: Any) -> Any:
         """Base acceleration a_x in m/s², from a normalised amplitude A: A g θcr or A g tan θcr, as `normalised_by` says."""

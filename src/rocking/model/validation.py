@@ -138,12 +138,21 @@ class NoOrbit(ValueError):
 class RecordError(ValueError):
     """Record file that cannot be read. The message is one line and names the file and the place.
 
+    Attributes
+    ----------
+    argument : str
+        "units" or "step" if the file lacks what this argument gives, or if it states it itself; empty for any other error.
+
     Examples
     --------
     >>> import rocking as rk
     >>> str(rk.RecordError("a.at2, line 4: no step"))
     'a.at2, line 4: no step'
     """
+
+    def __init__(self, message: str, argument: str = "") -> None:
+        super().__init__(message)
+        self.argument = argument
 
 
 class Text(str):

@@ -59,6 +59,20 @@ def block_warnings(
     yield from impact_warnings(block, restitution, left_restitution)
 
 
+def angle_symbol(block: Block) -> str:
+    """Return the unit of the normalised angles of a block in words."""
+    return "θcr" if block.restrainer is None else "of the angle of unstable balance"
+
+
+def restrained_warnings(block: Block, peak: float, restitution: float) -> Iterator[str]:
+    """Yield a sentence on what is not checked for a restrained block, and one for each assumption that does not hold.
+
+    They are for its largest |Θ| and for the smallest coefficient of restitution in use.
+    """
+    yield "sliding and jumping of a restrained block are not checked"
+    yield from block_warnings(block, (), restitution, angle=float(block.radians(min(peak, 1.0))))
+
+
 def height_warnings(height: float) -> Iterator[str]:
     """Yield a warning for a height in m that was possibly given in another unit."""
     if height > MAX_HEIGHT:

@@ -20,7 +20,7 @@ from rocking.model.validation import ContactLost, Refusal, Text, instance, refus
 from rocking.model.verdict import Outcome
 from rocking.motion.branch_and_bound import NOTHING, Arcs, Array, Extreme, first_time, global_minimum
 from rocking.motion.march_loop import is_lossless, outcome_of, parameters, run
-from rocking.motion.model_warnings import block_warnings, degrees_too, off, slender_errors
+from rocking.motion.model_warnings import angle_symbol, block_warnings, degrees_too, off, slender_errors
 
 if TYPE_CHECKING:
     from rocking.model.system import System
@@ -374,9 +374,9 @@ def compared(motion: Trajectory) -> tuple[str, str]:
 
 
 def degrees_and_share(block: Block, angle: float) -> str:
-    """Return an angle in degrees and in units of the critical angle, of an unsymmetric block that of θ > 0."""
-    side = "" if block.left is None or block.wall else " of θ > 0"
-    return f"{block.degrees(angle):.4g}°, {angle:.4g} θcr{side}"
+    """Return an angle in degrees and in its unit, of an unsymmetric block that of θ > 0."""
+    side = " of θ > 0" if block.is_unsymmetric else ""
+    return f"{block.degrees(angle):.4g}°, {angle:.4g} {angle_symbol(block)}{side}"
 
 
 def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) -> tuple[Array, Array]:

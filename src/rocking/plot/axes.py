@@ -115,9 +115,13 @@ def level_label(level: Any) -> str:
     )
 
 
+def balance_symbol(block: Block | None) -> str:
+    """Return the symbol of the unstable balance: θcr, or θu of a restrained block."""
+    return r"\theta_\mathrm{cr}" if block is None or block.restrainer is None else r"\theta_\mathrm{u}"
+
+
 def limit_label(limit: float, block: Block) -> str:
     """Return the event of exceeding a limit of |Θ|, in degrees."""
     if math.isinf(limit):
         return "overturning"
-    unit = r"\theta_\mathrm{cr}" if block.restrainer is None else r"\theta_\mathrm{u}"
-    return rf"$|\theta| > {block.degrees(limit):.3g}°$ (${limit:.3g}\,{unit}$)"
+    return rf"$|\theta| > {block.degrees(limit):.3g}°$ (${limit:.3g}\,{balance_symbol(block)}$)"

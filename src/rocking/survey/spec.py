@@ -25,6 +25,7 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.quantity import CRITICAL_ANGLE, LEFT_QUANTITIES, RUN_QUANTITIES, SYSTEM_QUANTITIES
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, scatter_attributes
+from rocking.model.restrainer import RestrainedUnits, restrained_units
 from rocking.model.system import (
     MODELS,
     NO_BRACES,
@@ -507,8 +508,7 @@ class MotionSpec(SurveySpec):
         own = np.array([self.intensities[number] for number in record.tolist()])
         factor = self.measure.factor(arguments["level"], own, alpha, slenderness)
         factor = factor * arguments["polarity"] / self.acceleration_units(slenderness)
-        if "stiffness_ratio" in arguments:
-            alpha, slenderness = self.restrained(alpha, slenderness)
+        alpha, slenderness = alpha * self.units.rate, slenderness * self.units.angle
         return Runs(
             self.motions,
             record,
@@ -527,13 +527,14 @@ class MotionSpec(SurveySpec):
 
     def acceleration_units(self, slenderness: np.ndarray) -> np.ndarray:
         """Return the base accelerations in m/s² that are 1 if they are normalised, for critical angles in rad."""
-        units = GRAVITY * _each(acceleration_unit_g, slenderness, self.normalised_by)
-        return units * (1.0 + self.fixed["prestress_ratio"]) if "prestress_ratio" in self.fixed else units
+        own = _each(acceleration_unit_g, slenderness, self.normalised_by)
+        return GRAVITY * (own * self.units.acceleration)
 
-    def restrained(self, alpha: np.ndarray, slenderness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the inverse unit of time and the unit of angles of restrained blocks, from those of the free ones."""
-        kappa, rho = self.fixed["stiffness_ratio"], self.fixed["prestress_ratio"]
-        return alpha * math.sqrt(1.0 - kappa), slenderness * (1.0 + rho) / (1.0 - kappa)
+    @property
+    def units(self) -> RestrainedUnits:
+        """Units of the blocks over those of free ones."""
+        ratios = (self.fixed.get(name, 0.0) for name in ("stiffness_ratio", "prestress_ratio"))
+        return restrained_units(*ratios)
 
     def streams(self, record: np.ndarray, sample: np.ndarray) -> np.ndarray:
         """Return the numbers (n,) of the sequences of deviations: one for each record and sample, at all levels alike."""
