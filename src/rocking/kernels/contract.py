@@ -316,6 +316,41 @@ def largest_near(p, drive, radius):
 
 
 @contract
+def excess_push(p):
+    """Return by how much alpha |u''| and its derivative by w may exceed r^2 (1 + alpha |a|) at a base acceleration a, over alpha r^2."""
+
+
+@contract
+def stiffness(p, side, sine, cosine, drive):
+    """Return du''/du where r^2 sin w and r^2 cos w are these."""
+
+
+@contract
+def growth_of(p, stiffness):
+    """Return an upper bound of the square of the rate at which perturbations grow, from du''/du."""
+
+
+@contract
+def parts_at_base(p, side, weight):
+    """Return the sum of the sizes of the parts of u'' at the base without base motion, for the size of the weight."""
+
+
+@contract
+def flat_time(p, side, step, drive):
+    """Return the time in a step at which a block lies flat, if it might rise again before the end of the step; else infinity."""
+
+
+@contract
+def limits_within(p, arc, step, drive, h, end, extremes):
+    """Return the ``Extremes`` with what else errors may change within a time h of a step of an arc, at whose end is the angle ``end``."""
+
+
+@contract
+def never_returns(p, side, angle, velocity, drive):
+    """Return whether a block certainly never comes back to the base."""
+
+
+@contract
 def acceleration_near(p, side, sine, change, drive, radius):
     """Return an upper bound of alpha |u''| in the complex disc around an instant.
 
@@ -387,6 +422,21 @@ def largest_push(p):
 @contract
 def response_ahead(p, drive):
     """Return R, the integral of e^(t - x) times the base acceleration at x over all later times x."""
+
+
+@contract
+def bounded_velocity(p, side, angle, drive):
+    """Return about the speed of the motion that stays bounded, and about -1 times its derivative by u."""
+
+
+@contract
+def excess_at_end(p, side, angle, velocity):
+    """Return by how much a block is faster than the motion that stays bounded, after the base motion, and -1 times its derivative by u."""
+
+
+@contract
+def bend_of_velocity(p):
+    """Return about the second derivative by u of the speed of the motion that stays bounded."""
 
 
 @contract

@@ -2,7 +2,7 @@
 
 There are three blocks, ``Slender``, ``Unsymmetric`` (slender, with unequal sides) and ``Full``, and three motions of the base,
 ``Cosine``, ``Samples`` and ``Pulse``. Compiled code exists for each pair, such as ``Full[Samples]``. A base that also moves vertically,
-``Biaxial``, is for the full block alone.
+``Biaxial``, is for the full block alone. A full block with a restrainer is ``Restrained``, for base motions that end.
 """
 
 import math
@@ -27,6 +27,7 @@ from rocking.kernels.library.export import entry_point
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.library.signature import Floats2
 from rocking.kernels.numerics.elementary import cosine_of, sine_of, tangent_of
+from rocking.kernels.restrainer import Restrainer
 
 Base = TypeVar("Base", Cosine, Samples, Pulse, Biaxial)
 NO_LAW = np.empty((0, 2))
@@ -155,10 +156,22 @@ class Full(NamedTuple, Generic[Base]):
     resting: Slender[Base]  # the slender system that stays at rest, or at a brace, as long as this one
 
 
+class Restrained(NamedTuple, Generic[Base]):
+    """Full block with a restrainer, on a moving base. Press and level of ``block`` are those with the force of the restrainer."""
+
+    LIKE = Full  # the block with the same bodies, where none are its own
+    block: FullBlock
+    forcing: Base
+    clock: Clock
+    resting: Slender[Base]
+    restrainer: Restrainer
+    balanced: Slender[Base]  # a slender system that moves as this one does near its unstable balance, in the unit of time there
+
+
 PeriodicParameters = Slender[Cosine] | Full[Cosine] | Unsymmetric[Cosine]
 """Systems whose base motion is periodic."""
-AnySampledParameters = Slender[Samples] | Full[Samples] | Unsymmetric[Samples]
-AnyPulseParameters = Slender[Pulse] | Full[Pulse] | Unsymmetric[Pulse]
+AnySampledParameters = Slender[Samples] | Full[Samples] | Unsymmetric[Samples] | Restrained[Samples]
+AnyPulseParameters = Slender[Pulse] | Full[Pulse] | Unsymmetric[Pulse] | Restrained[Pulse]
 FiniteParameters = AnySampledParameters | AnyPulseParameters | Full[Biaxial]
 """Systems whose base motion ends."""
 SystemParameters = PeriodicParameters | FiniteParameters
@@ -597,6 +610,7 @@ __all__ = [
     "LeftSide",
     "PeriodicParameters",
     "Pulse",
+    "Restrained",
     "Samples",
     "Scatter",
     "Slender",

@@ -17,11 +17,13 @@ from rocking.kernels.arc.arc import Transfer
 from rocking.kernels.arc.full_series import ORDER, SHORT_ORDER, divided_1, short_divided_1, short_sizes, sizes
 from rocking.kernels.contract import (
     acceleration_near,
+    acceleration_of,
     largest_near,
     largest_within,
     series_from,
     smooth_time,
     transfer_series,
+    weight_of,
 )
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.numerics.elementary import (
@@ -85,6 +87,36 @@ def ends_at_corner(c, corner, order):
     """Return whether the last two terms are below the tolerance up to a corner, which spares their logarithms."""
     power = corner ** (order - 1)
     return abs(c[order - 3]) * power <= TOLERANCE and abs(c[order - 2]) * (power * corner) <= TOLERANCE
+
+
+@body(contract.excess_push, Full, inline=True)
+def no_excess_push(p):
+    """Provide ``contract.excess_push``."""
+    return 0.0
+
+
+@body(contract.stiffness, Full, inline=True)
+def stiffness(p, side, sine, cosine, drive):
+    """Provide ``contract.stiffness``, W cos w - sigma alpha a sin w with the weight W."""
+    return weight_of(p, drive) * cosine - side * p.block.critical_angle * acceleration_of(p, drive) * sine
+
+
+@body(contract.growth_of, Full, inline=True)
+def growth_of(p, stiffness):
+    """Provide ``contract.growth_of``: the block falls away from its unstable balance."""
+    return stiffness
+
+
+@body(contract.flat_time, Full, inline=True)
+def flat_time(p, side, step, drive):
+    """Provide ``contract.flat_time``: a block that lies flat does not rise again."""
+    return math.inf
+
+
+@body(contract.limits_within, Full, inline=True)
+def no_limits(p, arc, step, drive, h, end, extremes):
+    """Provide ``contract.limits_within``: minima alone count."""
+    return extremes
 
 
 @body(contract.acceleration_near, Full, inline=True)

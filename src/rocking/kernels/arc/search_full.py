@@ -34,15 +34,16 @@ from rocking.kernels.arc.first_zero_full import first_zero_of_step
 from rocking.kernels.arc.full_series import derivative, negative
 from rocking.kernels.arc.full_step import cannot_reach_base, state_in, step_from, transfer_in
 from rocking.kernels.contract import (
-    acceleration_of,
     constants_at,
     drive_after_event,
     drive_later,
     drive_on_clock,
+    flat_time,
+    growth_of,
     heaviest_ahead,
     largest_ahead,
     lightest_ahead,
-    weight_of,
+    limits_within,
 )
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
 from rocking.kernels.library.kernel import body, kernel
@@ -54,9 +55,9 @@ FLAT = 0.5 * math.pi
 SLOWEST_GROWTH = 0.01
 
 
-@kernel
+@body(contract.never_returns, Full)
 def never_returns(p, side, angle, velocity, drive):
-    """Return whether a block certainly never comes back to the base."""
+    """Provide ``contract.never_returns`` by the bound of the module's text."""
     alpha, own = p.block.critical_angle, side_of(p.block, side)
     if alpha * angle >= FLAT:
         return True
@@ -196,26 +197,32 @@ def first_event(p, arc, peak, with_lows):
                 drive = drive_later(p, drive, hit, False)
                 coming = Next(elapsed + hit, BRACE, arc.side, brace, velocity, drive, 0.0, 0.0)
                 return coming, with_reached(seen, brace), stretch_of(growth, elapsed, steps)
-        h = min(t, step.length)
+        flat = flat_time(p, arc.side, step, drive)
+        lies = flat < t
+        t = math.inf if lies else t
+        h = min(t, flat, step.length)
         if peak < math.inf:
             peak = peak_in(p, arc, step, drive, h, peak)
-        stiffness = (
-            weight_of(p, drive) * step.cosine
-            - arc.side * p.block.critical_angle * acceleration_of(p, drive) * step.sine
-        )
+        stiffness = growth_of(p, contract.stiffness(p, arc.side, step.sine, step.cosine, drive))
         growth, part = growth + h * stiffness, (h / step.length) ** 4
         steps += part * part
         rise, velocity = state_in(step, h)
         end = 0.0 if t < math.inf else angle + rise
         if with_lows and may_turn_up(p, arc.side, step, drive, h, end, velocity):
             seen = with_minimum(p, arc.side, step, drive, h, end, velocity, elapsed, seen)
+        if with_lows and not lies:
+            seen = limits_within(p, arc, step, drive, h, end, seen)
         elapsed += h
+        if lies:
+            drive = drive_later(p, drive, flat, False)
+            coming = Next(math.inf, NONE, arc.side, end, velocity, drive, 0.0, 0.0)
+            return coming, with_reached(seen, peak), stretch_of(growth, elapsed, steps)
         if t < math.inf:
             drive = drive_later(p, drive, t, False)
             coming = Next(elapsed, IMPACT, arc.side, 0.0, velocity, drive, 0.0, 0.0)
             return coming, with_reached(seen, peak), stretch_of(growth, elapsed, steps)
         angle, drive = end, drive_later(p, drive, step.length, step.to_corner)
-        if brace == math.inf and never_returns(p, arc.side, angle, velocity, drive):
+        if brace == math.inf and contract.never_returns(p, arc.side, angle, velocity, drive):
             coming = Next(math.inf, NONE, arc.side, angle, velocity, drive, 0.0, 0.0)
             return coming, with_reached(seen, peak), stretch_of(growth, elapsed, steps)
     coming = Next(elapsed, NONE, arc.side, angle, velocity, drive, 0.0, 0.0)
@@ -248,8 +255,11 @@ def next_event(p, mode, arc, guess):
 def no_return_time(p, arc):
     """Provide ``contract.no_return_time``: the end of the first step after which overturning is proved."""
     angle, velocity, drive, elapsed = arc.angle, arc.velocity, arc.drive, 0.0
-    while not never_returns(p, arc.side, angle, velocity, drive):
+    while not contract.never_returns(p, arc.side, angle, velocity, drive):
         step = step_from(p, arc.side, angle, velocity, drive)
+        flat = flat_time(p, arc.side, step, drive)
+        if flat < math.inf:
+            return elapsed + flat
         rise, velocity = state_in(step, step.length)
         angle, elapsed = angle + rise, elapsed + step.length
         drive = drive_later(p, drive, step.length, step.to_corner)

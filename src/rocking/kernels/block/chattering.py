@@ -16,6 +16,7 @@ from rocking.kernels.contract import (
     acceleration_change_bound,
     acceleration_of,
     acceleration_size,
+    excess_push,
     forcing_term,
     has_wall,
     weight_change_bound,
@@ -188,7 +189,7 @@ def settling_of_full(p, side, drive, speed):
     """Provide ``contract.settling`` for the full block.
 
     Near the base it is accelerated back with W press + sigma A cos(alpha), within (W + alpha |A|) u, where W is the weight, and near a
-    brace likewise. The weaker acceleration of both sides, and the larger change, bound both. Against a wall there is only the right
+    brace likewise. Of a restrained block ``excess_push`` is added to |A|. The weaker acceleration of both sides, and the larger change, bound both. Against a wall there is only the right
     side.
     """
     block, now, right, left = p.block, acceleration_of(p, drive), p.block.right, p.block.left
@@ -202,7 +203,7 @@ def settling_of_full(p, side, drive, speed):
     window = LONGER * 2.0 * speed / (press * (1.0 - e))
     moved, lifted = acceleration_change_bound(p, drive, window), weight_change_bound(p, drive, window)
     softness = max(right.stiffness, left.stiffness) * (
-        abs(weight) + lifted + block.critical_angle * (swing + moved)
+        abs(weight) + lifted + block.critical_angle * (swing + moved + excess_push(p))
     )
     change = cosine * moved + most * lifted
     accelerations = press - change, press + change

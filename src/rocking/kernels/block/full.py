@@ -38,6 +38,12 @@ def restoring_acceleration(p, side):
     return side_of(p.block, side).press
 
 
+@body(contract.parts_at_base, Full, inline=True)
+def parts_at_base(p, side, weight):
+    """Provide ``contract.parts_at_base``."""
+    return weight * side_of(p.block, side).press
+
+
 @body(contract.change_of_side, Full, inline=True)
 def change_of_side(p, side, after):
     """Provide ``contract.change_of_side``."""

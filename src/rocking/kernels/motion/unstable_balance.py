@@ -37,7 +37,6 @@ from rocking.kernels.base.biaxial import Biaxial
 from rocking.kernels.base.cosine import Pulse
 from rocking.kernels.base.samples import Samples, interval
 from rocking.kernels.contract import (
-    acceleration_of,
     drive_later,
     elapsed_until,
     growth_constant,
@@ -72,6 +71,7 @@ FLAT = 0.5 * math.pi
 UPSIDE_DOWN = math.pi
 
 
+@body(contract.response_ahead, Slender, Samples, inline=True)
 @body(contract.response_ahead, Full, Samples, Biaxial, inline=True)
 def response_to_samples(p, drive):
     """Provide ``contract.response_ahead`` by the tables."""
@@ -79,6 +79,7 @@ def response_to_samples(p, drive):
     return mean + rate
 
 
+@body(contract.response_ahead, Slender, Pulse)
 @body(contract.response_ahead, Full, Pulse)
 def response_to_pulse(p, drive):
     """Provide ``contract.response_ahead``: that to the whole cosine, less the part after the end of the pulse."""
@@ -121,7 +122,7 @@ def step_between_weights(p, side, angle, velocity, drive):
 def stiffness_at(p, side, angle, drive):
     """Return q, the derivative of u'' by u."""
     sine, cosine = lean_of(p.block, side, angle)
-    return cosine - side * p.block.critical_angle * acceleration_of(p, drive) * sine
+    return contract.stiffness(p, side, sine, cosine, drive)
 
 
 @body(contract.smooth_step, Full, Pulse)
@@ -136,9 +137,9 @@ def step_in_pulse(p, side, angle, velocity, drive):
     return there, rate, 0.5 * (stiffness_at(p, side, angle, drive) + end), step.length, later
 
 
-@kernel(inline=True)
+@body(contract.bounded_velocity, Full, inline=True)
 def bounded_velocity(p, side, angle, drive):
-    """Return the approximation of W, and of -W_u: that of the free block, and the response of the slender one."""
+    """Provide ``contract.bounded_velocity``: that of the free block, and the response of the slender one."""
     own = side_of(p.block, side)
     half = 0.5 * p.block.critical_angle * (angle - own.ratio)
     square = half * half
@@ -146,12 +147,18 @@ def bounded_velocity(p, side, angle, drive):
     return own.rate * (free + side * response_ahead(p, drive)), own.rate * (1.0 - 0.5 * square)
 
 
-@kernel
+@body(contract.excess_at_end, Full)
 def excess_at_end(p, side, angle, velocity):
-    """Return the excess after the base motion, and -W_u, in closed form."""
+    """Provide ``contract.excess_at_end``, in closed form."""
     own, alpha = side_of(p.block, side), p.block.critical_angle
     half = 0.5 * alpha * (angle - own.ratio)
     return velocity + own.rate * sine_of(half) * 2.0 / alpha, own.rate * cosine_of(half)
+
+
+@body(contract.bend_of_velocity, Full, inline=True)
+def bend_of_velocity(p):
+    """Provide ``contract.bend_of_velocity``."""
+    return 0.25 * p.block.critical_angle * p.block.critical_angle
 
 
 @kernel
@@ -161,13 +168,13 @@ def excess_of(p, arc, speed, far, jump):
     The pass ends where the growth exceeds ``far``, and that of K, too. If it leaves |x| < 180 degrees, the error is infinite.
     """
     angle, velocity, drive, total, least = 0.0, speed, arc.drive, 0.0, math.inf
-    bend, doubt = 0.25 * p.block.critical_angle * p.block.critical_angle, 0.0
+    bend, doubt = contract.bend_of_velocity(p), 0.0
     by_angle, by_velocity = 0.0, 1.0  # of the perturbation that starts with (0, 1)
     alpha, balance = p.block.critical_angle, side_of(p.block, arc.side).ratio
     while not has_ended(p, drive):
         if not alpha * abs(angle - balance) < UPSIDE_DOWN:
             return math.nan, math.inf, least
-        wanted, slope = bounded_velocity(p, arc.side, angle, drive)
+        wanted, slope = contract.bounded_velocity(p, arc.side, angle, drive)
         excess, gain = velocity - wanted, by_velocity + slope * by_angle
         if gain > far and abs((arc.velocity - speed + total) * gain + excess) > CLEAR:
             return total + excess / gain, doubt, least
@@ -180,7 +187,7 @@ def excess_of(p, arc, speed, far, jump):
         cosh = 1.0 + 0.5 * z * (1.0 + z * (1.0 / 12.0) * (1.0 + z * (1.0 / 30.0)))
         sinh = h * (1.0 + z * (1.0 / 6.0) * (1.0 + z * (1.0 / 20.0)))
         by_angle, by_velocity = cosh * by_angle + sinh * by_velocity, q * sinh * by_angle + cosh * by_velocity
-    excess, slope = excess_at_end(p, arc.side, angle, velocity)
+    excess, slope = contract.excess_at_end(p, arc.side, angle, velocity)
     gain = by_velocity + slope * by_angle
     return total + excess / gain, doubt + bend * excess * excess / gain, least
 
@@ -223,7 +230,7 @@ def margin_of(p, arc, estimate, in_batch):
 def margin_estimate(p, arc, coming, stretch):
     """Provide ``contract.margin_estimate``: the excess at the end of the arc, divided by its growth."""
     sinh, cosh = rough_hyperbolic(stretch.rate * elapsed_until(p, arc, coming.drive))
-    wanted, _ = bounded_velocity(p, arc.side, coming.angle, coming.drive)
+    wanted, _ = contract.bounded_velocity(p, arc.side, coming.angle, coming.drive)
     return (coming.velocity - wanted) / ((sinh + cosh) * speed_unit(p, arc.side))
 
 
