@@ -40,14 +40,13 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
     restitution, braces = system.restitution, system.braces
     if block is not None:
         yield "", "normalised", "in SI"
-        if block.restrainer is None:
-            yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
-        else:
-            yield "unstable balance", "1", f"{block.degrees(1.0):.4g}°"
+        name = "unstable balance" if block.by_balance else "critical angle"
+        yield name, "1", f"{block.degrees(1.0):.4g}°"
+        if block.restrainer is not None:
             yield "restrainer", f"κ = {block.stiffness_ratio:.6g}, ρ = {block.prestress_ratio:.6g}", ""
         yield time_unit(block), "1", f"{block.seconds(1.0):.4g} s"
         unit = ", a/(g tan θcr)" if block.normalised_by == "tangent" else ""
-        unit = unit if block.restrainer is None else unit.replace("(g", "((1 + ρ) g")
+        unit = unit.replace("(g", "((1 + ρ) g") if block.by_balance else unit
         slender = system.critical_angle is None
         yield "equation of motion", f"small angles{unit}" if slender else "full", ""
         if block.left is not None:
@@ -151,10 +150,10 @@ def state_in_si(state: Any, block: Block) -> str:
 
 def time_unit(block: Block) -> str:
     """Return the name of the unit of time of a block."""
-    return "time unit 1/α" if block.restrainer is None else "time unit"
+    return "time unit" if block.by_balance else "time unit 1/α"
 
 
-SMALL_ANGLES = "small angles, with the restrainer"
+SMALL_ANGLES, FULL = "small angles, with the restrainer", "full, with the restrainer"
 
 
 def equation(
@@ -180,7 +179,8 @@ def equation(
 def equation_line(block: Block, attributes: Mapping[str, Any]) -> str:
     """Return the equation of motion of a survey of one block, as a line below a table with a row per record."""
     if block.restrainer is not None:
-        return f"equation of motion: {SMALL_ANGLES}"
+        restrained = SMALL_ANGLES if attributes["model"] == "slender" else FULL
+        return f"equation of motion: {restrained}"
     full, by = attributes["model"] == "full", attributes.get("normalised_by", "angle")
     return f"equation of motion: {equation(*block.critical_angles, full=full, normalised_by=by)}"
 

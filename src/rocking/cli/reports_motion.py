@@ -13,6 +13,7 @@ import numpy as np
 from rocking.cli.options import InvalidInput, option
 from rocking.cli.output import Report, Row, Text
 from rocking.cli.reports import (
+    FULL,
     SMALL_ANGLES,
     angle_warning,
     equation,
@@ -390,9 +391,9 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
             equation(*block.critical_angles, full=full, braced=braced, normalised_by=by),
         )
     else:
-        yield "equation of motion", SMALL_ANGLES
-        balance = f"unstable balance at {float(block.degrees(1.0)):.4g}°"
-        yield "restrainer", f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}, {balance}"
+        yield "equation of motion", FULL if full else SMALL_ANGLES
+        balance = f", unstable balance at {float(block.degrees(1.0)):.4g}°" if block.by_balance else ""
+        yield "restrainer", f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}{balance}"
     yield time_unit(block), f"{block.seconds(1.0):.4g} s"
     yield "lift-off from rest", lift_off_text(motion.system, block)
     left = f" for θ > 0, {block.left_restitution:.6g} for θ < 0" if both else ""

@@ -158,9 +158,10 @@ def system_of(options: Options) -> tuple[System, Block | None]:
             )
             base = select(options, *SI[2:], "phase")
             by = {} if "pulse" in options else select(options, "normalised_by")
-            system = block.system(**base, braces=braces, model=model_of(options), **by)
+            free = evolve(block, restrainer=None) if "pulse" in options else block
+            system = free.system(**base, braces=braces, model=model_of(options), **by)
         if "pulse" in options:
-            system = pulsed(system, options)
+            system = pulsed(system, options, block)
         return system, system.block
 
 
@@ -221,14 +222,19 @@ def fit_restitution(options: Options) -> Request:
     )
 
 
-def pulsed(system: System, options: Options) -> System:
-    """Return a system with one pulse of the amplitude and the period of its harmonic base motion."""
+def pulsed(system: System, options: Options, restrained: Block | None) -> System:
+    """Return a system with one pulse of the amplitude and the period of its harmonic base motion; of the ``restrained`` block if it is."""
     for name in ("phase", "displacement"):
         if options.get(name):
             raise InvalidInput(f"{option(name)} belongs to harmonic motion: omit it with --pulse")
     part = 0.5 if options["pulse"] == "half-sine" else 1.0
     wave, block = system.forcing, by_normalisation(system.block, options)
     assert isinstance(wave, Harmonic)
+    if restrained is not None and restrained.restrainer is not None:
+        size, time = restrained.acceleration(wave.amplitude), restrained.seconds(part * wave.period)
+        pulse = Pulse(options["pulse"], amplitude=size, duration=time)
+        by = select(options, "normalised_by")
+        return restrained.system(pulse, braces=system.braces, model=model_of(options), **by)
     amplitude = wave.amplitude * unit_ratio(block)
     forcing = Pulse(options["pulse"], amplitude=amplitude, duration=part * wave.period)
     return evolve(system, forcing=forcing, block=block)

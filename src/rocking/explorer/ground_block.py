@@ -128,7 +128,8 @@ def _restrainer(block: Block) -> Facts:
     if block.restrainer is None:
         return []
     ratios = f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}"
-    return [("restrainer", ratios), ("unstable balance at", f"{block.degrees(1.0):.4g}°")]
+    balance = [("unstable balance at", f"{block.degrees(1.0):.4g}°")] if block.by_balance else []
+    return [("restrainer", ratios), *balance]
 
 
 SENTENCES = {
@@ -175,7 +176,7 @@ def margin_in_words(motion: Motion, block: Block) -> str:
         return "The block never lifts off."
     size, time = abs(motion.margin), block.seconds(motion.margin_time)
     side = " of its side" if block.is_unsymmetric else ""
-    unit = "" if block.restrainer else f"{size:.3g} α θcr{side} = "
+    unit = "" if block.by_balance else f"{size:.3g} α θcr{side} = "
     speed = f"{unit}{math.degrees(abs(margin_speed(motion, block))):.3g} °/s"
     if motion.margin >= 0.0:
         return f"Closest decision at t = {time:.4g} s: the block was faster than it had to be to overturn, by {speed}."

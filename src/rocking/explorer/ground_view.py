@@ -13,8 +13,8 @@ from attrs import define, evolve, field, frozen
 from rocking.explorer.fields import Refused, Span, View, axis, count, entry, number, optional, word, written
 from rocking.explorer.ground_maps import POINTS
 from rocking.model import quantity as quantities
-from rocking.model.block import Block
-from rocking.model.block_formulas import GRAVITY, NORMALISATIONS
+from rocking.model.block import Block, unit_for
+from rocking.model.block_formulas import GRAVITY, NORMALISATIONS, with_unit
 from rocking.model.changed_motion import STEPS
 from rocking.model.forcing import KINDS, Pulse
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
@@ -119,7 +119,9 @@ class GroundView(View):
     def block(self) -> Block:
         """Selected block: a rectangle with Housner's restitution or that of a wall, uniform but for the offset of its mass centre."""
         wall = None if self.wall is None else Wall(self.wall)
-        return Block(self.height, self.width, offset=self.offset, wall=wall, restrainer=self.restrainer)
+        block = Block(self.height, self.width, offset=self.offset, wall=wall, restrainer=self.restrainer)
+        model, by = self.equation
+        return block if self.restrainer is None else with_unit(block, unit_for(block, by, model))
 
     @property
     def restrainer(self) -> Restrainer | None:
@@ -161,8 +163,6 @@ class GroundView(View):
         for name, value in (("stiffness", self.stiffness), ("prestress", self.prestress)):
             if value is not None and self.mass is None:
                 raise Refused({name: f"{name} needs the mass of the block"})
-            if value is not None and self.model == "full":
-                raise Refused({name: f"{name} is for the slender block: choose this equation of motion"})
         try:
             for angle in self.block.critical_angles:
                 critical_angle_for(self.model, angle, self.width)

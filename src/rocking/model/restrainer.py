@@ -12,6 +12,8 @@ from rocking.model.validation import instance, within
 LARGEST = 1e15
 MASSES = (1e-6, 1e12)
 """Range of the mass of a block, kg."""
+STIFFEST = 1e3
+"""Largest ratio κ of the stiffness of a restrainer to that of gravity."""
 
 
 def _stiffness(value: float) -> float:
@@ -63,7 +65,7 @@ def checked_restrainer(value: Any) -> Restrainer | None:
 
 
 class RestrainedUnits(NamedTuple):
-    """Units of a restrained block over those of the free one."""
+    """Units of a restrained block of small angles over those of the free one."""
 
     angle: float
     rate: float
@@ -71,7 +73,7 @@ class RestrainedUnits(NamedTuple):
 
 
 def restrained_units(stiffness_ratio: float, prestress_ratio: float) -> RestrainedUnits:
-    """Return the units for the ratios κ and ρ of a restrainer: (1 + ρ)/(1 − κ), √(1 − κ) and 1 + ρ; 1 without it.
+    """Return the units of small angles for the ratios κ and ρ of a restrainer: (1 + ρ)/(1 − κ), √(1 − κ) and 1 + ρ; 1 without it.
 
     Examples
     --------

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels import system as numbers
+from rocking.kernels.block.restrained import restrained_system
 from rocking.kernels.motion import march
 from rocking.kernels.motion import observers as event_rows
 from rocking.kernels.motion import tangent as differences
+from rocking.kernels.restrainer import restrainer_of
 from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
 from rocking.model.restitution import Scatter
 from rocking.model.system import State, System, check_periodic
@@ -42,7 +44,7 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
         return numbers.harmonic_system(block, *wave)
     if isinstance(forcing, Pulse):
         if forcing.cosine is not None:
-            return numbers.pulse_system(block, **_cosine_of(forcing, cycle_length))
+            return restrained(system, numbers.pulse_system(block, **_cosine_of(forcing, cycle_length)))
         forcing = forcing.samples
     assert isinstance(forcing, PiecewiseLinear)
     length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
@@ -50,7 +52,15 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
         assert isinstance(block, numbers.FullBlock)
         vertical = system.vertical.scale * system.vertical.values
         return numbers.biaxial_system(block, tables_for(forcing), forcing.scale, vertical, length)
-    return numbers.sampled_system(block, tables_for(forcing), forcing.scale, length)
+    return restrained(system, numbers.sampled_system(block, tables_for(forcing), forcing.scale, length), forcing)
+
+
+def restrained(system: System, free: Any, forcing: PiecewiseLinear | None = None) -> Any:
+    """Return the parameters with the restrainer of a system, under samples that of its ``forcing``; the same for a free block."""
+    if not system.is_restrained:
+        return free
+    own = restrainer_of(system.critical_angle, system.stiffness_ratio, system.prestress_ratio)
+    return restrained_system(free, own, None if forcing is None else tables_for(forcing, own.rate))
 
 
 def _block_of(system: System) -> numbers.Block:
@@ -97,14 +107,14 @@ def _cosine_of(pulse: Pulse, cycle_length: float | None) -> dict[str, Any]:
     }
 
 
-def tables_for(forcing: PiecewiseLinear) -> numbers.Tables:
-    """Return the tables of the samples of a forcing, made once as long as they are kept."""
-    key = id(forcing.values), forcing.step
+def tables_for(forcing: PiecewiseLinear, rate: float = 1.0) -> numbers.Tables:
+    """Return the tables of the samples of a forcing, its step multiplied by a rate, made once as long as they are kept."""
+    key = id(forcing.values), forcing.step * rate
     with _lock:
         if key in _tables:
             _tables.move_to_end(key)
             return _tables[key][1]
-    made = numbers.tables_of(forcing.values, forcing.step)
+    made = numbers.tables_of(forcing.values, forcing.step * rate)
     with _lock:
         _tables[key] = forcing.values, made  # the samples too, so that no others get their identity
         while len(_tables) > MAX_TABLES:

@@ -116,8 +116,8 @@ def level_label(level: Any) -> str:
 
 
 def balance_symbol(block: Block | None) -> str:
-    """Return the symbol of the unstable balance: θcr, or θu of a restrained block."""
-    return r"\theta_\mathrm{cr}" if block is None or block.restrainer is None else r"\theta_\mathrm{u}"
+    """Return the symbol of the unit of angles: θcr, or the unstable balance θu of a slender restrained block."""
+    return r"\theta_\mathrm{u}" if block is not None and block.by_balance else r"\theta_\mathrm{cr}"
 
 
 def limit_label(limit: float, block: Block) -> str:

@@ -268,7 +268,7 @@ def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right:
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
         left = 1.0 if system.left is None else 0.0 if system.wall else system.left.angle_ratio
-        restrained = system.block is not None and system.block.restrainer is not None
+        restrained = system.block is not None and system.block.by_balance
         name = "unstable balance" if restrained else "critical angle"
         levels, colour, dashes = (left, 1.0), style.GUIDE, "dotted"
     else:
