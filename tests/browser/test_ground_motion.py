@@ -333,7 +333,7 @@ def test_restrainer_takes_effect_with_the_mass_and_the_slender_block(ground):
     settled(visitor, lambda: visitor.page.select_option("#model", "slender"))
     assert "stiffness=20000&mass=600&model=slender" in visitor.page.url
     block = rk.Block(2.0, 0.5).restrained(2e4, mass=600.0)
-    assert facts(visitor)["unstable balance at"] == f"{block.degrees(1.0):.4g}°"
+    assert facts(visitor)["unstable balance θu"] == f"{block.degrees(1.0):.4g}°"
     told(lambda: visitor.page.select_option("#model", "full"), "slender block")
     settled(visitor, lambda: fill("stiffness", ""))
     assert "stiffness" not in visitor.page.url

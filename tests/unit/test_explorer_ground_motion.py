@@ -443,6 +443,7 @@ def test_block_against_a_wall_is_described_so(model):
     assert facts["lifts off at"].startswith("−0.25 g")
     assert drawn["history"]["below"] == 0.0 < drawn["history"]["above"]
     assert drawn["history"]["line"]["angle"].min() == 0.0
+    assert -0.1 < drawn["history"]["ranges"][2] / drawn["history"]["ranges"][3] < 0.0
     assert words["sentence"].endswith("The blocks of the map have no wall.")
     assert any(sentence.startswith("Wall: ") for sentence in words["validity"])
 
@@ -459,9 +460,9 @@ def test_restrained_block_is_described_by_its_unstable_balance():
     facts = dict(words["facts"])
     assert facts["θcr"] == "14.04°"
     assert facts["restrainer"] == f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}"
-    assert facts["unstable balance at"] == f"{block.degrees(1.0):.4g}°"
+    assert facts["unstable balance θu"] == f"{block.degrees(1.0):.4g}°"
     assert facts["lifts off at"] == f"{0.25 * (1 + block.prestress_ratio):.4g} g"
-    assert facts["largest |θ|"].endswith("of the angle of unstable balance")
+    assert facts["largest |θ|"].endswith(" θu")
     assert "θcr" not in words["margin"]
     assert words["sentence"].endswith("The blocks of the map have no restrainer.")
     assert words["validity"][0] == "Sliding and jumping of a restrained block are not checked."

@@ -66,6 +66,11 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
         yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
 
 
+def angle_symbol(block: Block) -> str:
+    """Return the unit of the normalised angles of a block in words."""
+    return "of the angle of unstable balance" if block.by_balance else "θcr"
+
+
 def left_text(left: Side | None) -> str:
     """Return the left side of an unsymmetric block in units of the right one, or the wall there."""
     if left is None:

@@ -15,6 +15,7 @@ from rocking.cli.output import Report, Row, Text
 from rocking.cli.reports import (
     FULL,
     SMALL_ANGLES,
+    angle_symbol,
     angle_warning,
     equation,
     in_si,
@@ -32,7 +33,7 @@ from rocking.model.system import State, System
 from rocking.model.tables_and_json import headed
 from rocking.model.text import counted, ordinal
 from rocking.model.verdict import Outcome, Verdict
-from rocking.motion.model_warnings import angle_symbol, restrained_warnings
+from rocking.motion.model_warnings import restrained_warnings
 from rocking.motion.motion import has_cycles, margin_speed
 
 if TYPE_CHECKING:

@@ -11,6 +11,7 @@ import numpy as np
 from rocking.cli.output import Report, Row, Table, Text, of_dataset
 from rocking.cli.reports import (
     MAX_ROWS,
+    angle_symbol,
     equation,
     equation_line,
     shape_warnings,
@@ -32,7 +33,6 @@ from rocking.model.record_set import RecordSet
 from rocking.model.tables_and_json import counts
 from rocking.model.text import counted, percent, percent_with_ends
 from rocking.model.validation import TooShort
-from rocking.motion.model_warnings import angle_symbol
 from rocking.survey.export import tables
 from rocking.survey.overturning_rate import overturning_rate
 

@@ -52,12 +52,16 @@ def no_motion(view: GroundView, ground: Ground, reason: str) -> tuple[Contents, 
 def _figures(
     view: GroundView, ground: Ground, times: np.ndarray, degrees: np.ndarray, fullest: float
 ) -> Contents:
-    """Return both figures for the same times, with free borders, and with lines at both critical angles, or unstable balances."""
+    """Return both figures for the same times, with free borders, and with lines at both critical angles, or unstable balances.
+
+    A block against a wall has no angles below 0.
+    """
     line, critical = ground.line(view.scale), view.block.degrees(1.0)
     end = float(max([*times[-1:], line["time"][-1]]))
     angle = fullest * (1 + 2 * OVER)
+    least = -angle if view.block.wall is None else -2 * OVER * fullest
     largest = max(float(np.abs(line["acceleration"]).max()), 1e-6) * (1 + 5 * OVER)
-    history: dict[str, Any] = {"ranges": [0.0, end, -angle, angle], "line": {"time": times, "angle": degrees}}
+    history: dict[str, Any] = {"ranges": [0.0, end, least, angle], "line": {"time": times, "angle": degrees}}
     left = -math.degrees(view.block.critical_angles[1]) if view.block.is_unsymmetric else -critical
     history |= {"above": critical, "below": 0.0 if view.block.wall else left}
     return {"history": history, "base": {"ranges": [0.0, end, -largest, largest], "line": line}}
@@ -128,7 +132,7 @@ def _restrainer(block: Block) -> Facts:
     if block.restrainer is None:
         return []
     ratios = f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}"
-    balance = [("unstable balance at", f"{block.degrees(1.0):.4g}°")] if block.by_balance else []
+    balance = [("unstable balance θu", f"{block.degrees(1.0):.4g}°")] if block.by_balance else []
     return [("restrainer", ratios), *balance]
 
 

@@ -59,11 +59,6 @@ def block_warnings(
     yield from impact_warnings(block, restitution, left_restitution)
 
 
-def angle_symbol(block: Block) -> str:
-    """Return the unit of the normalised angles of a block in words."""
-    return "of the angle of unstable balance" if block.by_balance else "θcr"
-
-
 def restrained_warnings(block: Block, peak: float, restitution: float) -> Iterator[str]:
     """Yield a sentence on what is not checked for a restrained block, and one for each assumption that does not hold.
 

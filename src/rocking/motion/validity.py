@@ -20,7 +20,7 @@ from rocking.model.validation import ContactLost, Refusal, Text, instance, refus
 from rocking.model.verdict import Outcome
 from rocking.motion.branch_and_bound import NOTHING, Arcs, Array, Extreme, first_time, global_minimum
 from rocking.motion.march_loop import is_lossless, outcome_of, parameters, run
-from rocking.motion.model_warnings import angle_symbol, block_warnings, degrees_too, off, slender_errors
+from rocking.motion.model_warnings import block_warnings, degrees_too, off, slender_errors
 
 if TYPE_CHECKING:
     from rocking.model.system import System
@@ -374,9 +374,10 @@ def compared(motion: Trajectory) -> tuple[str, str]:
 
 
 def degrees_and_share(block: Block, angle: float) -> str:
-    """Return an angle in degrees and in its unit, of an unsymmetric block that of θ > 0."""
+    """Return an angle in degrees and in units of θcr, of an unsymmetric block that of θ > 0, and of a slender restrained one θu."""
     side = " of θ > 0" if block.is_unsymmetric else ""
-    return f"{block.degrees(angle):.4g}°, {angle:.4g} {angle_symbol(block)}{side}"
+    unit = "θu" if block.by_balance else "θcr"
+    return f"{block.degrees(angle):.4g}°, {angle:.4g} {unit}{side}"
 
 
 def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) -> tuple[Array, Array]:
