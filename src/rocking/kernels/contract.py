@@ -356,6 +356,11 @@ def margin_estimate(p, arc, coming, stretch):
 
 
 @contract
+def estimate_error(p):
+    """Return about the largest error of ``contract.margin_estimate``."""
+
+
+@contract
 def margin_of(p, arc, estimate, in_batch):
     """Return the margin of an arc that starts at the base, from an estimate: by how much it is faster than a motion that stays bounded.
 
@@ -387,6 +392,11 @@ def largest_push(p):
 @contract
 def response_ahead(p, drive):
     """Return R, the integral of e^(t - x) times the base acceleration at x over all later times x."""
+
+
+@contract
+def approach_of(p):
+    """Return the ``Approach`` of the search for the motion that stays bounded."""
 
 
 @contract
