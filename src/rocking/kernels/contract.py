@@ -391,6 +391,11 @@ def margin_estimate(p, arc, coming, stretch):
 
 
 @contract
+def estimate_error(p):
+    """Return about the largest error of ``contract.margin_estimate``."""
+
+
+@contract
 def margin_of(p, arc, estimate, in_batch):
     """Return the margin of an arc that starts at the base, from an estimate: by how much it is faster than a motion that stays bounded.
 
@@ -435,8 +440,8 @@ def excess_at_end(p, side, angle, velocity):
 
 
 @contract
-def bend_of_velocity(p):
-    """Return about the second derivative by u of the speed of the motion that stays bounded."""
+def approach_of(p):
+    """Return the ``Approach`` of the search for the motion that stays bounded."""
 
 
 @contract

@@ -60,7 +60,9 @@ class TooManyEvents(ValueError):
 
 
 class ContactLost(ValueError):
-    """Motion under vertical acceleration in which the block leaves the base: the base reaction vanishes. The message states the instant.
+    """Motion under vertical acceleration in which the block leaves the base: its weight or the base reaction vanishes.
+
+    The message states the instant.
 
     Examples
     --------
@@ -72,7 +74,7 @@ class ContactLost(ValueError):
     ...     print(rk.simulate(block.system(ground, vertical=down)))
     ... except rk.ContactLost as lost:
     ...     print(lost)
-    the base reaction vanishes at t = ... s: the block leaves the base
+    the weight vanishes at t = 0.408610 s: the block leaves the base
     """
 
 

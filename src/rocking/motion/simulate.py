@@ -79,7 +79,7 @@ def simulate(
     TooManyEvents
         If there are more than 10⁷ events to record, or more than 10⁷ events in one cycle.
     ContactLost
-        If the base reaction vanishes under vertical acceleration.
+        If the weight or the base reaction vanishes under vertical acceleration.
 
     See Also
     --------

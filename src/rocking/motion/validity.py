@@ -402,29 +402,43 @@ def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) 
 
 
 def check_contact(motion: Trajectory) -> None:
-    """Raise ContactLost for a motion under vertical acceleration whose base reaction vanishes before overturning is proved.
+    """Raise ContactLost for a motion under vertical acceleration in which weight or base reaction vanish before overturning is proved.
 
-    The first time is found by branch and bound over the exact motion. A system without a block is taken as slender without limit: then
-    the reaction is 1 + a_v.
+    The weight, 1 + a_v, is linear between samples. The first time at which the base reaction vanishes is found by branch and bound over
+    the exact motion. A system without a block has no base reaction.
     """
     until = motion.duration if motion.overturning is None else motion.overturning.time
     moving, resting, _ = split(motion, until)
     block, vertical, forcing = motion.system.block, motion.system.vertical, motion.system.forcing
     assert vertical is not None
+    begins = {"weight": weightless_from(vertical)}
 
     def upward(times: Array, sides: Array) -> tuple[Array, Array]:
-        up = (
-            1 + vertical.acceleration(times)
-            if block is None
-            else base_reaction(motion, block, times, sides)[1]
-        )
-        return up[None], np.ones(times.size)
+        assert block is not None
+        return base_reaction(motion, block, times, sides)[1][None], np.ones(times.size)
 
-    slow = forcing.time_scale
-    begins = min(first_time(upward, 0.0, moving, min(slow, 1)), first_time(upward, 0.0, resting, slow))
-    if begins < math.inf:
-        at = f"τ = {begins:.6g}" if block is None else f"t = {block.seconds(begins):.6g} s"
-        raise ContactLost(f"the base reaction vanishes at {at}: the block leaves the base")
+    if block is not None and not begins["weight"] <= until:
+        slow = forcing.time_scale
+        begins["base reaction"] = min(
+            first_time(upward, 0.0, moving, min(slow, 1)), first_time(upward, 0.0, resting, slow)
+        )
+    which = min(begins, key=lambda name: begins[name])
+    if begins[which] <= until:
+        at = f"τ = {begins[which]:.6g}" if block is None else f"t = {block.seconds(begins[which]):.6g} s"
+        raise ContactLost(f"the {which} vanishes at {at}: the block leaves the base")
+
+
+def weightless_from(vertical: PiecewiseLinear) -> float:
+    """Return the first time at which the base accelerates downwards with 1 g or more; infinite if it never does."""
+    weights = 1 + vertical.scale * vertical.values
+    gone = np.flatnonzero(weights <= 0)
+    if not gone.size:
+        return math.inf
+    first = int(gone[0])
+    if first == 0:
+        return 0.0
+    before, here = weights[first - 1], weights[first]
+    return float(vertical.step * (first - 1 + before / (before - here)))
 
 
 def impact_friction(motion: Trajectory, block: Block) -> Extreme:

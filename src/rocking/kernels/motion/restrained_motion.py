@@ -6,7 +6,7 @@ b - theta, where P is the integral of the torque. While the base moves, W is app
 acceleration of the equation that is linear in theta - b. It grows at the rate r with r^2 = -dG/dtheta at b. A block without a balance up
 to where it lies flat has no margin. Nor has a motion along which du''/du is not positive.
 
-W'' is d2G/dtheta2/(3 r) at the balance, about rho alpha/(4 r) there, and that of the free block besides.
+W'' is d2G/dtheta2/(3 r) at the balance, about rho alpha/(4 r), and that of the free block besides.
 
 **Rounding errors.** A stiff restrainer makes perturbations oscillate. They do not outgrow their origin then, so that the errors of all
 steps of an arc count, not of those in a unit of time. The curvature of the equation is at most 1 + kappa + rho times that of the
@@ -23,7 +23,7 @@ from rocking.kernels.base.samples import Samples
 from rocking.kernels.contract import drive_later, response_ahead, smooth_time
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.motion.rounding_errors import LINEAR, end_of_full_is_sure, error_of_steps, spread_of
-from rocking.kernels.motion.unstable_balance import LONGEST
+from rocking.kernels.motion.unstable_balance import LONGEST, Approach, bend_of
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.restrainer import energy_between, torque
 from rocking.kernels.system import Restrained
@@ -63,11 +63,17 @@ def excess_at_end(p, side, angle, velocity):
     return velocity - speed, slope
 
 
-@body(contract.bend_of_velocity, Restrained, inline=True)
-def bend_of_velocity(p):
-    """Provide ``contract.bend_of_velocity``."""
-    alpha, own = p.block.critical_angle, p.restrainer
-    return 0.25 * alpha * alpha * (1.0 + own.prestress) / own.rate
+@body(contract.approach_of, Restrained, inline=True)
+def approach_of(p):
+    """Provide ``contract.approach_of``: far from the balance -W_u, and its effect on the response, are only about the rate there."""
+    own = p.restrainer
+    return Approach(bend_of(p) * (1.0 + own.prestress) / own.rate, 1.0, 8.0, 40)
+
+
+@body(contract.estimate_error, Restrained, inline=True)
+def estimate_error(p):
+    """Provide ``contract.estimate_error``."""
+    return 0.3
 
 
 @body(contract.smooth_step, Restrained, Samples)

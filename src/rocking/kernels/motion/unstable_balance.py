@@ -22,11 +22,13 @@ that is found. If it fails, there is no margin.
 which follows from the equation of small perturbations, to first order in K. W is approximated by that of the free block and the
 response R of the slender one to a, W = -(2/alpha) sin(x/2) + sigma R. If the excess becomes larger than JUMP, the motion is put
 onto this W, and goes on. The sum of all excesses, each divided by the growth so far, is K. An error of W counts less by the
-growth. What is left is of second order in each excess: W_uu is about alpha^2/4. Repetition from the better speed makes it as small
+growth. What is left is of second order in each excess: W_uu is about alpha^2/4. On a base that also moves vertically, -W_u may be far
+from its approximation, too, which leaves an error of first order. Repetition from the better speed makes both as small
 as is wanted. Each repetition allows larger excesses, so that the error of W causes no jump in the end.
 """
 
 import math
+from typing import NamedTuple
 
 from rocking.kernels import contract
 from rocking.kernels.arc.full_biaxial import pushes_at
@@ -57,13 +59,12 @@ from rocking.kernels.numerics.elementary import (
 )
 from rocking.kernels.system import Full, Slender, Unsymmetric, side_of
 
-# Excess above which the motion is put onto the approximation of W: at first, its factor at each repetition, and at most.
-JUMP, WIDER, WIDEST = 0.2, 4.0, 1.0
+# Excess above which the motion is put onto the approximation of W: at first, and its factor at each repetition.
+JUMP, WIDER = 0.2, 4.0
 # Growth of the excess at which the error of W, about 0.05, no longer counts: absolutely, in a batch, and for the sign of K.
 FAR, FAR_IN_BATCH, CLEAR = 2.0**32, 2.0**14, 2.0**8
-# Largest error of second order that may be left.
+# Largest error that jumps may leave.
 SETTLED, SETTLED_IN_BATCH = 1e-11, 1e-4
-REPETITIONS = 12
 # Length of a step of ``brief_linear_series``: the error of a step is below 1e-11.
 LONGEST = 0.1
 FLAT = 0.5 * math.pi
@@ -88,6 +89,33 @@ def response_to_pulse(p, drive):
         return 0.0
     whole = wave.response * (drive.cosine - wave.frequency * drive.sine)
     return whole - exponential(-left) * p.forcing.end_response
+
+
+class Approach(NamedTuple):
+    """Errors of the approximation of W that the search for the bounded motion admits, and its number of repetitions."""
+
+    bend: float  # W_uu, about
+    slope: float  # of -W_u, relative; 0 where repetition reduces it with the error of second order
+    widest: float  # of W
+    repetitions: int
+
+
+@kernel(inline=True)
+def bend_of(p):
+    """Return about W_uu of a free block."""
+    return 0.25 * p.block.critical_angle * p.block.critical_angle
+
+
+@body(contract.approach_of, Full, inline=True)
+def approach_of(p):
+    """Provide ``contract.approach_of``."""
+    return Approach(bend_of(p), 0.0, 1.0, 12)
+
+
+@body(contract.approach_of, Full, Biaxial, inline=True)
+def approach_with_weight(p):
+    """Provide ``contract.approach_of``: -W_u is about the root of a mean weight, instead of 1, so that a repetition leaves a part."""
+    return Approach(bend_of(p), 1.0, 8.0, 40)
 
 
 @body(contract.smooth_step, Full, Samples)
@@ -155,20 +183,14 @@ def excess_at_end(p, side, angle, velocity):
     return velocity + own.rate * sine_of(half) * 2.0 / alpha, own.rate * cosine_of(half)
 
 
-@body(contract.bend_of_velocity, Full, inline=True)
-def bend_of_velocity(p):
-    """Provide ``contract.bend_of_velocity``."""
-    return 0.25 * p.block.critical_angle * p.block.critical_angle
-
-
 @kernel
 def excess_of(p, arc, speed, far, jump):
-    """Return the excess of a speed by one pass along its motion, its error of second order, and the least q there.
+    """Return the excess of a speed by one pass along its motion, the error that jumps leave, and the least q there.
 
     The pass ends where the growth exceeds ``far``, and that of K, too. If it leaves |x| < 180 degrees, the error is infinite.
     """
     angle, velocity, drive, total, least = 0.0, speed, arc.drive, 0.0, math.inf
-    bend, doubt = contract.bend_of_velocity(p), 0.0
+    approach, doubt = contract.approach_of(p), 0.0
     by_angle, by_velocity = 0.0, 1.0  # of the perturbation that starts with (0, 1)
     alpha, balance = p.block.critical_angle, side_of(p.block, arc.side).ratio
     while not has_ended(p, drive):
@@ -180,7 +202,9 @@ def excess_of(p, arc, speed, far, jump):
             return total + excess / gain, doubt, least
         if abs(excess) > jump:
             total += excess / gain
-            doubt += bend * excess * excess / gain
+            doubt += approach.bend * excess * excess / gain
+            if approach.slope > 0.0:
+                doubt += approach.slope * abs(excess) / gain
             velocity = wanted
         angle, velocity, q, h, drive = smooth_step(p, arc.side, angle, velocity, drive)
         least, z = min(least, q), q * h * h
@@ -189,7 +213,7 @@ def excess_of(p, arc, speed, far, jump):
         by_angle, by_velocity = cosh * by_angle + sinh * by_velocity, q * sinh * by_angle + cosh * by_velocity
     excess, slope = contract.excess_at_end(p, arc.side, angle, velocity)
     gain = by_velocity + slope * by_angle
-    return total + excess / gain, doubt + bend * excess * excess / gain, least
+    return total + excess / gain, doubt + approach.bend * excess * excess / gain, least
 
 
 @kernel
@@ -215,12 +239,12 @@ def margin_of(p, arc, estimate, in_batch):
     unit = speed_unit(p, arc.side)
     speed = arc.velocity - estimate * unit
     far, settled = (FAR_IN_BATCH, SETTLED_IN_BATCH) if in_batch else (FAR, SETTLED)
-    jump = JUMP
-    for _ in range(REPETITIONS):
+    jump, approach = JUMP, contract.approach_of(p)
+    for _ in range(approach.repetitions):
         excess, doubt, least = excess_of(p, arc, speed, far, jump)
         if doubt == math.inf:
             return math.nan
-        speed, jump = speed - excess, min(WIDER * jump, WIDEST)
+        speed, jump = speed - excess, min(WIDER * jump, approach.widest)
         if doubt <= settled:
             return (arc.velocity - speed) / unit if least > 0.0 or is_unique(p, arc) else math.nan
     return math.nan
@@ -232,6 +256,20 @@ def margin_estimate(p, arc, coming, stretch):
     sinh, cosh = rough_hyperbolic(stretch.rate * elapsed_until(p, arc, coming.drive))
     wanted, _ = contract.bounded_velocity(p, arc.side, coming.angle, coming.drive)
     return (coming.velocity - wanted) / ((sinh + cosh) * speed_unit(p, arc.side))
+
+
+@body(contract.estimate_error, Full, inline=True)
+@body(contract.estimate_error, Slender, inline=True)
+@body(contract.estimate_error, Unsymmetric, inline=True)
+def estimate_error(p):
+    """Provide ``contract.estimate_error``."""
+    return 0.1
+
+
+@body(contract.estimate_error, Full, Biaxial, inline=True)
+def estimate_error_with_weight(p):
+    """Provide ``contract.estimate_error``: the approximation of W knows nothing of the weight."""
+    return 0.3
 
 
 @body(contract.margin_of, Unsymmetric, inline=True)
