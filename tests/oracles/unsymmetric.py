@@ -70,7 +70,9 @@ def bend_of(block, side, theta, push):
     i = 0 if side > 0 else 1
     w, square = block.alpha[i] * side - theta, block.rate[i] * block.rate[i]
     if block.full:
-        tied = block.kappa * math.sin(theta) + side * block.rho * math.sin(block.alpha[i]) * math.cos(0.5 * theta)
+        tied = block.kappa * math.sin(theta) + side * block.rho * math.sin(block.alpha[i]) * math.cos(
+            0.5 * theta
+        )
         return -square * (math.sin(w) + push * math.cos(w) + tied)
     return -square * (w + push + block.kappa * theta + side * block.rho * block.alpha[i])
 

@@ -165,7 +165,9 @@ class Restrained(NamedTuple, Generic[Base]):
     clock: Clock
     resting: Slender[Base]
     restrainer: Restrainer
-    balanced: Slender[Base]  # a slender system that moves as this one does near its unstable balance, in the unit of time there
+    balanced: Slender[
+        Base
+    ]  # a slender system that moves as this one does near its unstable balance, in the unit of time there
 
 
 PeriodicParameters = Slender[Cosine] | Full[Cosine] | Unsymmetric[Cosine]

@@ -425,8 +425,8 @@ class System:
         if self.critical_angle not in (None, block.critical_angle) or ratios[0] != ratios[1]:
             return None
         slender = self.critical_angle is None
-        ratios = (0.0, 0.0) if slender else (block.stiffness_ratio, block.prestress_ratio)
-        if ratios != (self.stiffness_ratio, self.prestress_ratio):
+        restrainer = (0.0, 0.0) if slender else (block.stiffness_ratio, block.prestress_ratio)
+        if restrainer != (self.stiffness_ratio, self.prestress_ratio):
             return None
         if not slender:
             block = with_unit(block, "angle")

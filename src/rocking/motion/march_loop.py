@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels import system as numbers
-from rocking.kernels.block.restrained import restrained_system
+from rocking.kernels.block.restrained import restrained_under_pulse, restrained_under_samples
 from rocking.kernels.motion import march
 from rocking.kernels.motion import observers as event_rows
 from rocking.kernels.motion import tangent as differences
-from rocking.kernels.restrainer import restrainer_of
+from rocking.kernels.restrainer import Restrainer, restrainer_of
 from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
 from rocking.model.restitution import Scatter
 from rocking.model.system import State, System, check_periodic
@@ -44,7 +44,8 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
         return numbers.harmonic_system(block, *wave)
     if isinstance(forcing, Pulse):
         if forcing.cosine is not None:
-            return restrained(system, numbers.pulse_system(block, **_cosine_of(forcing, cycle_length)))
+            made = numbers.pulse_system(block, **_cosine_of(forcing, cycle_length))
+            return restrained_under_pulse(made, _restrainer_of(system)) if system.is_restrained else made
         forcing = forcing.samples
     assert isinstance(forcing, PiecewiseLinear)
     length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
@@ -52,15 +53,16 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
         assert isinstance(block, numbers.FullBlock)
         vertical = system.vertical.scale * system.vertical.values
         return numbers.biaxial_system(block, tables_for(forcing), forcing.scale, vertical, length)
-    return restrained(system, numbers.sampled_system(block, tables_for(forcing), forcing.scale, length), forcing)
-
-
-def restrained(system: System, free: Any, forcing: PiecewiseLinear | None = None) -> Any:
-    """Return the parameters with the restrainer of a system, under samples that of its ``forcing``; the same for a free block."""
+    free = numbers.sampled_system(block, tables_for(forcing), forcing.scale, length)
     if not system.is_restrained:
         return free
-    own = restrainer_of(system.critical_angle, system.stiffness_ratio, system.prestress_ratio)
-    return restrained_system(free, own, None if forcing is None else tables_for(forcing, own.rate))
+    own = _restrainer_of(system)
+    return restrained_under_samples(free, own, tables_for(forcing, own.rate))
+
+
+def _restrainer_of(system: System) -> Restrainer:
+    assert system.critical_angle is not None
+    return restrainer_of(system.critical_angle, system.stiffness_ratio, system.prestress_ratio)
 
 
 def _block_of(system: System) -> numbers.Block:

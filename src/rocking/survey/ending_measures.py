@@ -9,7 +9,7 @@ from itertools import pairwise, starmap
 import numpy as np
 
 from rocking.kernels import system as numbers
-from rocking.kernels.block.restrained import restrained_system
+from rocking.kernels.block.restrained import restrained_under_pulse, restrained_under_samples
 from rocking.kernels.motion import finite_motion, march
 from rocking.kernels.restrainer import restrainer_of
 from rocking.model.forcing import SINES, PiecewiseLinear, Pulse
@@ -116,9 +116,16 @@ def endings_of_runs(runs: Runs, options: Mapping[str, int], stop: np.ndarray) ->
         )
         base = motion.normalised(1.0, alpha)
         inputs["scale"][part] = base.scale * runs.factor[part]
-        how = {"left": runs.left, "place": part.start, "law": law, "scatter": scatter}
-        angle = float(runs.slenderness[part.start])
-        p = sampled(base, full=runs.full, restrainer=runs.restrainer, critical_angle=angle, **how)
+        p = sampled(
+            base,
+            full=runs.full,
+            left=runs.left,
+            place=part.start,
+            law=law,
+            scatter=scatter,
+            restrainer=runs.restrainer,
+            critical_angle=float(runs.slenderness[part.start]),
+        )
         if not finite_motion.run_batch(p, inputs[part], with_peak, rows[part], stop):
             return None
     return answers(rows, with_peak=with_peak)
@@ -166,7 +173,7 @@ def sampled(
     if restrainer == UNRESTRAINED:
         return free
     own = restrainer_of(critical_angle, *restrainer)
-    return restrained_system(free, own, numbers.tables_of(base.values, base.step * own.rate))
+    return restrained_under_samples(free, own, numbers.tables_of(base.values, base.step * own.rate))
 
 
 def _any_block(
@@ -229,8 +236,9 @@ def _sines(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
         math.tau * form.turns / runs.duration,
         numbers.within_a_turn(form.phase),
     )
-    how = {"law": runs.law, "scatter": runs.scatter, "restrainer": runs.restrainer}
-    kind = a_pulse(full=runs.full, left=runs.left, **how)
+    kind = a_pulse(
+        full=runs.full, left=runs.left, law=runs.law, scatter=runs.scatter, restrainer=runs.restrainer
+    )
     return finite_motion.run_pulses(kind, pulses, True, rows, stop)
 
 
@@ -245,7 +253,9 @@ def a_pulse(
     """Return parameters of any pulse, which give the kernel the kind of block and its law of restitution."""
     pulse = {"amplitude": 1.0, "frequency": 1.0, "phase": 0.0, "duration": 1.0, "cycle_length": 1.0}
     free = numbers.pulse_system(_any_block(full=full, left=left, law=law, scatter=scatter), **pulse)
-    return free if restrainer == UNRESTRAINED else restrained_system(free, restrainer_of(1.0, *restrainer))
+    if restrainer == UNRESTRAINED:
+        return free
+    return restrained_under_pulse(free, restrainer_of(1.0, *restrainer))
 
 
 def _sampled(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
@@ -259,9 +269,15 @@ def _sampled(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
     for number, duration in enumerate(durations.tolist()):
         own = np.flatnonzero(places == number)
         base = Pulse(runs.kind, amplitude=1.0, duration=duration).samples
-        how = {"law": runs.law, "scatter": runs.scatter, "restrainer": runs.restrainer}
-        angle = float(runs.critical_angle[own[0]])
-        p = sampled(base, full=runs.full, left=runs.left, critical_angle=angle, **how)
+        p = sampled(
+            base,
+            full=runs.full,
+            left=runs.left,
+            law=runs.law,
+            scatter=runs.scatter,
+            restrainer=runs.restrainer,
+            critical_angle=float(runs.critical_angle[own[0]]),
+        )
         part = np.empty(own.size, finite_motion.ENDING_ROW)
         if not finite_motion.run_batch(p, inputs[own], True, part, stop):
             return False

@@ -204,8 +204,15 @@ def runs_of(spec: SwitchSpec, number: int, stop: np.ndarray) -> Run:
         {name: np.array([value]) for name, value in spec.fixed.items()}, np.array([block.restitution])
     )
     law, ratios = np.array(spec.law.rows).reshape(-1, 2), ratios_of(spec.fixed) if spec.full else UNRESTRAINED
-    how = {"law": law, "scatter": spec.law.scatter, "restrainer": ratios, "critical_angle": slenderness}
-    p = sampled(motion.normalised(1.0, rate), full=spec.full, left=left, **how)
+    p = sampled(
+        motion.normalised(1.0, rate),
+        full=spec.full,
+        left=left,
+        law=law,
+        scatter=spec.law.scatter,
+        restrainer=ratios,
+        critical_angle=slenderness,
+    )
     restitution = law[:, 1].max() if spec.law.rows else block.restitution
     stream = spec.streams(np.array([number]), np.zeros(1, np.int64))
     unit = with_unit(block, unit_for(block, spec.normalised_by, spec.model)).acceleration(1.0)

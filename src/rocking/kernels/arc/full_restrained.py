@@ -5,8 +5,9 @@ has a constant part on either side, and there is a part in half angles. ``contra
 ``largest_within`` and ``largest_near`` give |A| and this excess, and every bound of ``full_step`` and ``extrema_full`` holds: each is
 1 + alpha |A|, as in ``full_biaxial``.
 
-**Proof that a block never returns.** From now on let a <= m with m >= 0. On 0 <= theta <= pi/2, cos(alpha - theta) > 0, so that theta'' >= -G
-with the constant push m. Let P be the integral of G, which is greatest at the balance b of this push, or at pi/2 if it has none.
+**Proof that a block never returns.** From now on let a <= m with m >= 0. If 0 <= theta <= pi/2, cos(alpha - theta) > 0, so that
+theta'' >= -G with the constant push m. Let P be the integral of G, which is greatest at the balance b of this push, or at pi/2 if it has
+none.
 
 - If theta' > 0, the energy theta'^2/2 + P grows. If it exceeds the greatest P, theta' never becomes 0, and the block comes to lie flat.
 - If theta > b, G < 0 from there on. A block with theta' < 0 loses energy. If this is below P(b), the block turns before b, and then
@@ -113,9 +114,7 @@ def transfer_in_pulse(p, side, slope, sine, cosine, drive):
     wave, own, (m, n) = wave_of(p), p.restrainer, half_angle(p, sine, cosine)
     size = side * p.block.critical_angle * wave.amplitude
     g, h = size * drive.cosine + own.push, size * drive.sine
-    return restrained_cosine_transfer(
-        slope, sine, cosine, g, h, own.push, wave.frequency, own.weight, m, n
-    )
+    return restrained_cosine_transfer(slope, sine, cosine, g, h, own.push, wave.frequency, own.weight, m, n)
 
 
 @body(contract.largest_within, Restrained, Samples, inline=True)

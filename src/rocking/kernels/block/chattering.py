@@ -189,8 +189,8 @@ def settling_of_full(p, side, drive, speed):
     """Provide ``contract.settling`` for the full block.
 
     Near the base it is accelerated back with W press + sigma A cos(alpha), within (W + alpha |A|) u, where W is the weight, and near a
-    brace likewise. Of a restrained block ``excess_push`` is added to |A|. The weaker acceleration of both sides, and the larger change, bound both. Against a wall there is only the right
-    side.
+    brace likewise. Of a restrained block ``excess_push`` is added to |A|. The weaker acceleration of both sides, and the larger change,
+    bound both. Against a wall there is only the right side.
     """
     block, now, right, left = p.block, acceleration_of(p, drive), p.block.right, p.block.left
     e, swing, cosine = largest_up_to(p, speed), abs(now), max(right.cosine, left.cosine)

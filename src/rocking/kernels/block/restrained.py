@@ -64,7 +64,11 @@ def restrained_samples(full, restrainer, tables, rate):
 @kernel
 def restrained_pulse(full, restrainer):
     """Return a restrained system under a pulse, from the free one."""
-    block, wave, duration = restrained_block(full.block, restrainer), full.forcing.during, full.forcing.duration
+    block, wave, duration = (
+        restrained_block(full.block, restrainer),
+        full.forcing.during,
+        full.forcing.duration,
+    )
     own = pulse_with(wave.amplitude / block.level, wave.frequency, wave.phase, duration, math.inf)
     rate, amplitude = restrainer.rate, wave.amplitude * push_at_balance(restrainer)
     there = pulse_with(amplitude, wave.frequency / rate, wave.phase, duration * rate, math.inf)
@@ -120,15 +124,18 @@ def escape_speed(p):
     return math.sqrt(2.0 * barrier) / alpha
 
 
-def restrained_system(
-    free: AnySampledParameters | AnyPulseParameters, restrainer: Restrainer, tables: Tables | None = None
-) -> Restrained[Samples] | Restrained[Pulse]:
+def restrained_under_samples(
+    free: AnySampledParameters, restrainer: Restrainer, tables: Tables
+) -> Restrained[Samples]:
     """Return the system of a full block with a restrainer, from the free one.
 
-    ``tables`` are those of the samples with steps longer by the ``rate`` of the restrainer. Those of the free one serve, too: only the
-    search for margins takes longer.
+    ``tables`` are those of the samples with steps longer by the ``rate`` of the restrainer.
     """
     assert isinstance(free, Full)
-    if tables is None:
-        return restrained_pulse.py_func(free, restrainer)
     return restrained_samples.py_func(free, restrainer, tables, restrainer.rate)
+
+
+def restrained_under_pulse(free: AnyPulseParameters, restrainer: Restrainer) -> Restrained[Pulse]:
+    """Return the system of a full block with a restrainer, from the free one."""
+    assert isinstance(free, Full)
+    return restrained_pulse.py_func(free, restrainer)

@@ -16,8 +16,8 @@ free block, and so is the part of an error that is not linear.
 import math
 
 from rocking.kernels import contract
-from rocking.kernels.arc.full_series import brief_divided_1, brief_restrained_series
 from rocking.kernels.arc.full_restrained import half_angle, pushes_under_samples
+from rocking.kernels.arc.full_series import brief_divided_1, brief_restrained_series
 from rocking.kernels.arc.full_step import lean_of
 from rocking.kernels.base.samples import Samples
 from rocking.kernels.contract import drive_later, response_ahead, smooth_time

@@ -24,7 +24,13 @@ from rocking.kernels import contract
 from rocking.kernels.arc.arc import ROUNDING
 from rocking.kernels.arc.full_step import ERROR
 from rocking.kernels.block.restitution import bend_within
-from rocking.kernels.contract import forcing_term, growth_constant, heaviest_ahead, never_returns, parts_at_base
+from rocking.kernels.contract import (
+    forcing_term,
+    growth_constant,
+    heaviest_ahead,
+    never_returns,
+    parts_at_base,
+)
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.system import Full, Slender, Unsymmetric
 
