@@ -48,6 +48,7 @@ KINDS = {
     "full, unsymmetric": {"critical_angle": 0.25, "left": LEFT},
     "slender, wall": {"left": WALL, "restitution": 0.5},
     "full, wall": {"critical_angle": 0.25, "left": WALL, "restitution": 0.5},
+    "full, restrained": {"critical_angle": 0.25, "stiffness_ratio": 0.3, "prestress_ratio": 0.2},
     "slender, restrained": {"block": rk.Block(2.0, 0.5, 0.9).restrained(4e4, 900.0, mass=600.0)},
 }
 AMPLITUDES = np.array([1.5, 2.0, 2.5])

@@ -454,6 +454,7 @@ def test_restrained_block_is_described_by_its_unstable_balance():
     assert shown.block == block
     drawn, words = block_motion(shown, Ground(SHORT))
     motion = rk.simulate(block.system(SHORT.scaled(1.4), model="slender"))
+    block = motion.system.block
     history = drawn["history"]
     assert np.abs(history["line"]["angle"]).max() == pytest.approx(block.degrees(motion.peak), rel=1e-4)
     assert history["above"] == -history["below"] == block.degrees(1.0) > 14.1
@@ -466,6 +467,20 @@ def test_restrained_block_is_described_by_its_unstable_balance():
     assert "θcr" not in words["margin"]
     assert words["sentence"].endswith("The blocks of the map have no restrainer.")
     assert words["validity"][0] == "Sliding and jumping of a restrained block are not checked."
+
+
+def test_restrained_block_with_the_full_equation_is_described_by_its_critical_angle():
+    shown = DEFAULT.changed(RESTRAINED | {"scale": "1.4", "model": "full"})
+    drawn, words = block_motion(shown, Ground(SHORT))
+    block = rk.Block(2.0, 0.5).restrained(2e4, 800.0, mass=600.0)
+    motion = rk.simulate(block.system(SHORT.scaled(1.4)))
+    history, facts = drawn["history"], dict(words["facts"])
+    assert np.abs(history["line"]["angle"]).max() == pytest.approx(block.degrees(motion.peak), rel=1e-4)
+    assert history["above"] == -history["below"] == pytest.approx(math.degrees(block.critical_angle))
+    assert "unstable balance θu" not in facts
+    assert facts["lifts off at"] == f"{0.25 * (1 + block.prestress_ratio):.4g} g"
+    assert facts["largest |θ|"].endswith(" θcr")
+    assert words["validity"] == ["Sliding and jumping of a restrained block are not checked."]
 
 
 def test_full_equation_of_motion_has_a_margin_and_is_certified():

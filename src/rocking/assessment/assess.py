@@ -265,7 +265,9 @@ def assess(
     (0, True)
     """
     chosen = record_set(records)
-    unrestrained(instance("block", block, Block), "block", "an assessment compares both equations of motion")
+    unrestrained(
+        instance("block", block, Block), "block", "an assessment needs the base reactions of a free block"
+    )
     instance("name", name, str)
     measure, _ = intensity_of(intensity, chosen)
     grid = np.atleast_1d(reals("levels", levels))

@@ -45,7 +45,7 @@ SECTIONS = ("block", "records", "levels", "uncertain", "hazard")
 OF_HAZARD = ("file", "levels", "rates_per_year", "years")
 ADVICE = re.compile(r"(?:--)?\b(baseline|component)='(\w+)'")
 """Argument in a message of the reader, which is a key of [records]."""
-NO_RESTRAINER = "an assessment compares both equations of motion, and a restrained block has one"
+NO_RESTRAINER = "an assessment needs the base reactions of a free block"
 EXAMPLE = 'pga_g = "0.1:1.2:23"'
 
 

@@ -295,7 +295,7 @@ def check_sides(system: System, block: Block) -> None:
 
 def other_system(system: System, block: Block) -> System:
     """Return the system of the other equation under the same base motion: full, or slender with a/(g tan θcr)."""
-    angle = unrestrained(block, "block", "it has one equation of motion").critical_angle
+    angle = unrestrained(block, "block", "its equations of motion are not compared").critical_angle
     own = block.acceleration_unit_g if system.critical_angle is None else angle
     other = angle if system.critical_angle is None else math.tan(angle)
     forcing = system.forcing
