@@ -156,7 +156,10 @@ def test_kernel_without_stiffness_and_force_is_that_of_the_free_block():
         one, other = (finite_motion.run_to_end(p, 0.0, 0.0, math.inf) for p in (free, none))
         assert (one.status, one.decided) == (other.status, other.decided)
         assert one.peak == pytest.approx(other.peak, rel=1e-12)
-        assert one.margin == pytest.approx(other.margin, rel=1e-9, abs=1e-9, nan_ok=True)
+        if one.margin_time == other.margin_time:
+            assert one.margin == pytest.approx(other.margin, rel=1e-7, abs=1e-7)
+        else:  # the search for the margin of a restrained block finds those of more arcs
+            assert math.isnan(one.margin) or abs(other.margin) < abs(one.margin)
     ground = rk.example_ground_motion().scaled(pga=4.0)
     tied = BLOCK.restrained(0.0, mass=1.0).system(ground)
     assert tied == BLOCK.system(ground)
@@ -234,44 +237,43 @@ def proved(p, side, time, angle, velocity):
     return never_returns(p, side, angle, velocity, drive_on_clock(p, 0, time))
 
 
-def test_a_proof_that_a_block_never_returns_holds_under_the_largest_push():
-    """States at which overturning is proved lie flat in the end, if the base pushes them back as much as its samples allow."""
-    rng, proofs = np.random.default_rng(2), 0
+def least_speed(case, theta, push):
+    """Return the least speed in rad with which a block at an angle comes to lie flat against a constant push: by energy, on a grid.
+
+    If it is negative, the block turns before its balance. The integrals are those of the trapezoidal rule.
+    """
+
+    def torque(x):
+        lean = np.sin(case.alpha - x) + push * np.cos(case.alpha - x)
+        return lean + case.kappa * np.sin(x) + case.rho * math.sin(case.alpha) * np.cos(x / 2)
+
+    ahead, back = np.linspace(theta, math.pi / 2, 100_001), np.linspace(0.0, theta, 100_001)
+    steps = 0.5 * (torque(ahead)[1:] + torque(ahead)[:-1]) * np.diff(ahead)
+    needed = max(float(np.cumsum(steps).max()), 0.0)
+    if needed > 0.0:
+        return math.sqrt(2.0 * needed)
+    falling = back[torque(back) >= 0.0].max(initial=0.0)
+    behind = np.linspace(falling, theta, 100_001)
+    spare = -float((0.5 * (torque(behind)[1:] + torque(behind)[:-1]) * np.diff(behind)).sum())
+    return -math.sqrt(2.0 * max(spare, 0.0))
+
+
+def test_a_proof_that_a_block_never_returns_is_that_of_the_largest_push():
+    """The least speed with a proof is the least one with which the largest push of the samples cannot return the block."""
+    rng, signs = np.random.default_rng(2), []
     for case in cases(150, 5):
         case.values *= rng.uniform(0.1, 1.0)
         p, alpha, largest = parameters(case.system()), case.alpha, np.abs(case.values).max()
-        low, high = 0.0, 30.0 * (1.0 + case.kappa + case.rho)
-        angle = float(rng.uniform(0.0, 0.99 * math.pi / 2 / alpha))
-        if not proved(p, 1, 0.0, angle, high):
-            continue
-        for _ in range(60):  # the least speed with a proof
+        high = 30.0 * (1.0 + case.kappa + case.rho)
+        low, angle = -high, float(rng.uniform(0.0, 0.99 * math.pi / 2 / alpha))
+        assert proved(p, 1, 0.0, angle, high)
+        for _ in range(70):
             middle = 0.5 * (low + high)
             low, high = (low, middle) if proved(p, 1, 0.0, angle, middle) else (middle, high)
-        own = oracle.Block((alpha,) * 2, (1.0, 1.0), (1.0, 1.0), True, kappa=case.kappa, rho=case.rho)
-
-        def change(t, y, own=own, push=largest * alpha):
-            return y[1], oracle.bend_of(own, 1, y[0], push)
-
-        def flat(t, y):
-            return y[0] - math.pi / 2
-
-        def base(t, y):
-            return y[0] + 1e-9
-
-        flat.terminal = base.terminal = True
-        made = solve_ivp(
-            change,
-            (0.0, 300.0),
-            (alpha * angle, alpha * high),
-            "DOP853",
-            rtol=1e-12,
-            atol=1e-14,
-            events=(flat, base),
-        )
-        assert made.t_events[0].size
-        proofs += 1
-        assert not proved(p, 1, 0.0, angle, low) or low == 0.0
-    assert proofs > 100
+        exact = least_speed(case, alpha * angle, alpha * largest) / alpha
+        assert high == pytest.approx(exact, rel=1e-5, abs=1e-5 / alpha)
+        signs.append(exact > 0.0)
+    assert 75 < sum(signs) < 145
 
 
 @kernel
@@ -347,7 +349,7 @@ def test_a_stiff_restrainer_returns_the_block_from_any_angle_short_of_a_right_on
     assert math.isnan(rk.simulate(case.system()).margin)
 
 
-@pytest.mark.parametrize("kind", ["half-sine", "one-cosine", "triangle"])
+@pytest.mark.parametrize("kind", ["half-sine", "one-cosine", "triangular"])
 def test_spectra_of_pulses_and_single_motions_agree(kind):
     pulse = rk.Pulse(kind, amplitude=3.0, duration=1.0)
     system = rk.System(pulse, 0.85, critical_angle=0.25, stiffness_ratio=0.3, prestress_ratio=0.4)
@@ -402,7 +404,7 @@ SAMPLES = rk.PiecewiseLinear([0.0, 2.0, 0.0], step=0.5)
     [
         (
             lambda: STIFF.system(rk.example_ground_motion(), model="slender"),
-            "stiffness must be below 56916.6 N/m, from where on a slender block has no unstable balance",
+            "stiffness must be below 56880.2 N/m, from where on a slender block has no unstable balance",
         ),
         (lambda: STIFF.system(acceleration=3.0, period_s=1.0), "stiffness must be below"),
         (

@@ -682,7 +682,7 @@ class Block(Dimensions):
             raise WrongType(values[0], "be omitted with {base}")
         if isinstance(base, GroundMotion) and base.vertical:
             warn_of_value(vertical_sentence([base.component]))
-        scales = own.acceleration(1.0), self.rate_unit
+        scales = own.acceleration(1.0), own.rate_unit
         forcing = instance("base", base, BaseMotion).normalised(*scales)
         lift = None if vertical is None else checked_vertical(base, vertical).normalised(GRAVITY, scales[1])
         scatter = block.law.scatter

@@ -176,7 +176,7 @@ def limits_within(p, arc, step, drive, h, end, extremes):
     bend = bend_0(step.angle, step.velocity, step.series, h)
     top = highest_possible(step, end - step.angle, bend, h)
     if top > NEAR * flat:
-        top = peak_in(p, arc, step, drive, h, 0.0)
+        top = peak_in(p, arc, step, drive, h, step.angle)
     return with_low(extremes, min(extremes.low, extremes.dip, flat - top))
 
 
