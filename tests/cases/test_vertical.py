@@ -1,7 +1,9 @@
 """Vertical motion of the base: reference values, closed forms, a second method, 50 digits, lift-off and refusals."""
 
+import json
 import math
 import re
+import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,6 +16,7 @@ from numba import njit
 import rocking as rk
 from oracles import full_taylor
 from oracles import vertical as oracle
+from rocking.cli.main import run
 from rocking.kernels.arc import full_step
 from rocking.kernels.base.samples import SampledDrive
 from rocking.motion import march_loop
@@ -425,3 +428,40 @@ def test_error_of_a_step_is_below_its_bound():
             error = abs(float((u - arb(angle) - arb(rise)).mid()))
         assert made.length > 1e-3
         assert error <= full_step.ERROR + 2**-51 * (abs(rise) + made.length * (1 + np.abs(base.values).max()))
+
+
+def test_command_follows_the_vertical_channel_of_a_file(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    times = np.arange(400) * 0.02
+    push, lift = 4.0 * np.sin(6.0 * times), 2.0 * np.cos(9.0 * times[:-5])
+    for name, values in (("a.csv", push), ("b.csv", lift)):
+        lines = (f"{time},{value}" for time, value in zip(times.tolist(), values.tolist(), strict=False))
+        Path(name).write_text("time [s],acceleration [m/s2]\n" + "\n".join(lines))
+
+    def typed(factor, *more):
+        line = (
+            "record",
+            "a.csv",
+            "--vertical",
+            "b.csv",
+            "--height",
+            "2",
+            "--width",
+            "0.6",
+            "--scale",
+            factor,
+        )
+        monkeypatch.setattr(sys, "argv", ["rocking", *line, *more])
+        return run()
+
+    assert typed("1.5", "--json") == (0, "")
+    data = json.loads(capsys.readouterr().out)
+    ground = rk.GroundMotion(1.5 * push[:-5], step=0.02)
+    motion = rk.simulate(BLOCK.system(ground, vertical=rk.GroundMotion(1.5 * lift, step=0.02)))
+    assert data["outcome"] == motion.outcome
+    assert data["margin_rad_per_s"] == pytest.approx(float(BLOCK.radians_per_second(motion.margin)), rel=1e-6)
+    assert data["vertical_motion"]["file"]["name"] == "b.csv"
+    assert any("both end at 7.88 s" in each for each in data["warnings"])
+    code, refused = typed("9")
+    assert code == 2
+    assert refused.startswith("the weight vanishes at t = ")
