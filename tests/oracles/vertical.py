@@ -1,8 +1,8 @@
-"""Motion of a symmetric block on a base that moves horizontally and vertically, by DOP853 of SciPy with events.
+"""Motion of a block on a base that moves horizontally and vertically, by DOP853 of SciPy with events.
 
-Nothing is taken from the package. The equation is that of the angle theta in rad, in units of time 1/p. With w = alpha sigma - theta on
-side sigma, theta'' = -[(1 + v) sin w + a cos w], or -[(1 + v) w + a] for a slender block; a and v are in g, linear between the same
-samples, and 0 after the last one.
+Nothing is taken from the package. The equation is that of the angle theta in rad, in units of time 1/p of the right side. With
+w = alpha_i sigma - theta on side sigma, theta'' = -p_i^2 [(1 + v) sin w + a cos w], or -p_i^2 [(1 + v) w + a] for a slender block; a and v
+are in g, linear between the same samples, and 0 after the last one.
 """
 
 import math
@@ -18,11 +18,16 @@ FAR = 50.0
 
 
 class Block(NamedTuple):
-    """Critical angle, coefficient of restitution, and whether the equation is the full one."""
+    """Critical angles, frequency parameters and coefficients of restitution of both sides; first the right one.
 
-    alpha: float
-    restitution: float
+    Against a wall only the right side counts: it lifts there only, and an impact turns theta' to -e theta'.
+    """
+
+    alpha: tuple[float, float]
+    rate: tuple[float, float]
+    restitution: tuple[float, float]
     full: bool
+    wall: bool
 
 
 class Base(NamedTuple):
@@ -49,18 +54,24 @@ class Result(NamedTuple):
     peak: float
 
 
+def place(side):
+    """Return the place of a side: 0 of the right one, 1 of the left one."""
+    return 0 if side > 0 else 1
+
+
 def bend_of(block, side, theta, push, lift):
     """Return theta''."""
-    w = block.alpha * side - theta
+    i = place(side)
+    w, square = block.alpha[i] * side - theta, block.rate[i] ** 2
     if block.full:
-        return -((1.0 + lift) * math.sin(w) + push * math.cos(w))
-    return -((1.0 + lift) * w + push)
+        return -square * ((1.0 + lift) * math.sin(w) + push * math.cos(w))
+    return -square * ((1.0 + lift) * w + push)
 
 
 def lifts(block, push, lift):
     """Return the side to which a block at rest lifts; 0 if it stays."""
-    level = (math.tan(block.alpha) if block.full else block.alpha) * (1.0 + lift)
-    return 1 if -push > level else -1 if push > level else 0
+    right, left = ((math.tan(each) if block.full else each) * (1.0 + lift) for each in block.alpha)
+    return 1 if -push > right else -1 if push > left and not block.wall else 0
 
 
 def next_lift(block, base, part, time, end):
@@ -95,7 +106,7 @@ def arc(block, base, part, side, state, time, end):
         return y[1]
 
     def fallen(t, y):
-        return side * y[0] - (0.5 * math.pi if block.full else FAR * block.alpha)
+        return side * y[0] - (0.5 * math.pi if block.full else FAR * block.alpha[place(side)])
 
     at_base.terminal = fallen.terminal = True
     at_base.direction, fallen.direction = -1, 1
@@ -106,8 +117,8 @@ def arc(block, base, part, side, state, time, end):
 
 
 def follow(block, base, angle=0.0, velocity=0.0, until=60.0):
-    """Return the ``Result`` of a motion from (Theta, Theta')."""
-    alpha = block.alpha
+    """Return the ``Result`` of a motion from (Theta, Theta'), in units of the right side."""
+    alpha = block.alpha[0]
     theta, speed, time, peak = angle * alpha, velocity * alpha, 0.0, abs(angle)
     side = 1 if theta > 0 or (theta == 0 and speed > 0) else -1
     resting = theta == 0.0 == speed
@@ -126,7 +137,8 @@ def follow(block, base, angle=0.0, velocity=0.0, until=60.0):
                 return Result(True, math.inf)
             peak = max(peak, abs(theta) / alpha, *[abs(each[0]) / alpha for each in made.y_events[1]])
             if made.t_events[0].size:
-                theta, side, speed = 0.0, -side, speed * block.restitution
+                speed *= block.restitution[place(side)]
+                theta, side, speed = (0.0, side, -speed) if block.wall else (0.0, -side, speed)
                 if abs(speed) < STILL * alpha:
                     side, speed = lifts(block, *base.at(part, time)), 0.0
                     resting = side == 0

@@ -199,8 +199,8 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
                 "vertical",
                 RecordFile(),
                 "FILE",
-                "File of the vertical component, positive upwards, with the step and the number of samples of the record. It is scaled as "
-                "the record is.",
+                "File of the vertical component, positive upwards, with the step of the record. It is scaled as the record is, and both "
+                "end with the shorter one.",
             ),
             number(
                 "floor_period",

@@ -284,7 +284,12 @@ def record_text(motion: Motion, request: Request) -> Text:
     """Return the summary, with the warnings of the reader."""
     block, ground = block_of(request), request.records
     friction = request.options.get("friction")
-    rows = [*of_ground(ground), *of_vertical(motion), *of_direction(request), *of_block(motion, block)]
+    rows = [
+        *of_ground(ground),
+        *of_vertical(request.vertical),
+        *of_direction(request),
+        *of_block(motion, block),
+    ]
     rows += record_rows(motion, block, friction)
     lines = warning_lines([*request.warnings, *undecided(motion)])
     lines += [*angle_warning(motion.start.angle, block), *validity_warnings(motion, block, friction)]
@@ -339,9 +344,7 @@ def of_ground(ground: GroundMotion) -> Iterator[Row]:
     """Yield the rows of the ground motion."""
     yield "motion", named(ground)
     file = ground.file
-    if file is not None:
-        parts = (file.name, file.format, file.channel, f"SHA-256 {file.sha256[:DIGITS_OF_DIGEST]}…")
-        yield "file", ", ".join(filter(None, parts))
+    yield from of_file(ground)
     count = ground.acceleration.size
     yield "samples", f"{count}, step {ground.step:g} s, {ground.duration:.6g} s"
     treated = "as in the file" if ground.baseline == "none" else f"{ground.baseline} removed"
@@ -362,11 +365,21 @@ def of_ground(ground: GroundMotion) -> Iterator[Row]:
     yield "bracketed duration", f"{ground.bracketed_duration():.4g} s, above 0.05 g"
 
 
-def of_vertical(motion: Motion) -> Iterator[Row]:
-    """Yield the row of the vertical acceleration, if there is one."""
-    if (vertical := motion.system.vertical) is not None:
-        upwards = vertical.scale * vertical.values
-        yield "vertical acceleration", f"{upwards.min():.4g} to {upwards.max():.4g} g, positive upwards"
+def of_file(ground: GroundMotion) -> Iterator[Row]:
+    """Yield the row of the file of a ground motion, if it is read from one."""
+    if (file := ground.file) is not None:
+        parts = (file.name, file.format, file.channel, f"SHA-256 {file.sha256[:DIGITS_OF_DIGEST]}…")
+        yield "file", ", ".join(filter(None, parts))
+
+
+def of_vertical(vertical: GroundMotion | None) -> Iterator[Row]:
+    """Yield the rows of the vertical component, if there is one."""
+    if vertical is None:
+        return
+    yield "vertical motion", named(vertical)
+    yield from of_file(vertical)
+    upwards = vertical.acceleration / GRAVITY
+    yield "accelerates", f"from {upwards.min():.4g} to {upwards.max():.4g} g, positive upwards"
 
 
 def of_direction(request: Request) -> Iterator[Row]:
@@ -396,7 +409,8 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
         balance = f", unstable balance at {float(block.degrees(1.0)):.4g}°" if block.by_balance else ""
         yield "restrainer", f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}{balance}"
     yield time_unit(block), f"{block.seconds(1.0):.4g} s"
-    yield "lift-off from rest", lift_off_text(motion.system, block)
+    weight = "" if motion.system.vertical is None else ", times the weight 1 + a_v"
+    yield "lift-off from rest", lift_off_text(motion.system, block) + weight
     left = f" for θ > 0, {block.left_restitution:.6g} for θ < 0" if both else ""
     if block.wall is None:
         yield "restitution", f"e = {block.restitution:.6g}{left}, {origin(block)}"
@@ -469,8 +483,10 @@ def record_more(motion: Motion, request: Request) -> dict[str, Any]:
     """Return the ground motion, the validity report and the warnings as JSON objects."""
     warnings = [*request.warnings, *undecided(motion)]
     direction = {"worse_direction": request.counted} if request.counted else {}
-    facts_of_ground = facts(request.records) | direction
-    return {"ground_motion": facts_of_ground, **motion_validity(motion, request), "warnings": warnings}
+    own = {"ground_motion": facts(request.records) | direction}
+    if request.vertical is not None:
+        own["vertical_motion"] = facts(request.vertical)
+    return {**own, **motion_validity(motion, request), "warnings": warnings}
 
 
 def facts(ground: GroundMotion) -> dict[str, Any]:

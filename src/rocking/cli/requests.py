@@ -89,6 +89,8 @@ class Request:
     varied: str = ""
     """Option with an axis or a range, as typed."""
     records: Any = None
+    vertical: Any = None
+    """Vertical component of a record."""
     hazard: Any = None
     """Hazard of the site of a fragility, a `HazardCurve`."""
     counted: str = ""

@@ -27,8 +27,8 @@ class Excess(NamedTuple):
 @kernel(inline=True)
 def excess_at(p, side, level, index):
     """Return the ``Excess`` of a side at a sample."""
-    push, held = -side * p.forcing.scale * p.forcing.tables.samples[index], level * p.forcing.weights[index]
-    return Excess(push - held, abs(push) + abs(held))
+    push, weight = -side * p.forcing.scale * p.forcing.tables.samples[index], p.forcing.weights[index]
+    return Excess(push - level * weight, abs(push) + level * (1.0 + abs(weight - 1.0)))
 
 
 @kernel

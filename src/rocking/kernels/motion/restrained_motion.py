@@ -67,7 +67,7 @@ def excess_at_end(p, side, angle, velocity):
 def approach_of(p):
     """Provide ``contract.approach_of``: far from the balance -W_u, and its effect on the response, are only about the rate there."""
     own = p.restrainer
-    return Approach(bend_of(p) * (1.0 + own.prestress) / own.rate, 1.0, 8.0, 40)
+    return Approach(bend_of(p) * (1.0 + own.prestress) / own.rate, True, 8.0, 40)
 
 
 @body(contract.estimate_error, Restrained, inline=True)

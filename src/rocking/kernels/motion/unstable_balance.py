@@ -23,8 +23,8 @@ which follows from the equation of small perturbations, to first order in K. W i
 response R of the slender one to a, W = -(2/alpha) sin(x/2) + sigma R. If the excess becomes larger than JUMP, the motion is put
 onto this W, and goes on. The sum of all excesses, each divided by the growth so far, is K. An error of W counts less by the
 growth. What is left is of second order in each excess: W_uu is about alpha^2/4. On a base that also moves vertically, -W_u may be far
-from its approximation, too, which leaves an error of first order. Repetition from the better speed makes both as small
-as is wanted. Each repetition allows larger excesses, so that the error of W causes no jump in the end.
+from its approximation, too, which leaves an error of first order: a part of the excess. Repetition from the better speed makes both as
+small as is wanted. Each repetition allows larger excesses, so that the error of W causes no jump in the end.
 """
 
 import math
@@ -95,7 +95,9 @@ class Approach(NamedTuple):
     """Errors of the approximation of W that the search for the bounded motion admits, and its number of repetitions."""
 
     bend: float  # W_uu, about
-    slope: float  # of -W_u, relative; 0 where repetition reduces it with the error of second order
+    is_rough: (
+        bool  # whether the errors of growths count; else repetition reduces them with those of second order
+    )
     widest: float  # of W
     repetitions: int
 
@@ -109,13 +111,17 @@ def bend_of(p):
 @body(contract.approach_of, Full, inline=True)
 def approach_of(p):
     """Provide ``contract.approach_of``."""
-    return Approach(bend_of(p), 0.0, 1.0, 12)
+    return Approach(bend_of(p), False, 1.0, 12)
 
 
 @body(contract.approach_of, Full, Biaxial, inline=True)
 def approach_with_weight(p):
-    """Provide ``contract.approach_of``: -W_u is about the root of a mean weight, instead of 1, so that a repetition leaves a part."""
-    return Approach(bend_of(p), 1.0, 8.0, 40)
+    """Provide ``contract.approach_of``.
+
+    -W_u is about the root of a mean weight, instead of 1, and the weight changes within a step. So a repetition leaves a part of the
+    excess.
+    """
+    return Approach(bend_of(p), True, 8.0, 40)
 
 
 @body(contract.smooth_step, Full, Samples)
@@ -142,8 +148,9 @@ def step_between_weights(p, side, angle, velocity, drive):
     sine, cosine = lean_of(p.block, side, angle)
     c = brief_biaxial_series(-alpha * velocity, sine, cosine, -1.0 / alpha, push, rate, weight, lift)
     slope, bend = brief_divided_1(angle, velocity, c, h)
-    later = drive_later(p, drive, h, h == corner)
-    return angle + slope * h, fma(bend, h, slope), weight * cosine - push * sine, h, later
+    later, half = drive_later(p, drive, h, h == corner), 0.5 * h
+    stiffness = (weight + half * lift) * cosine - (push + half * rate) * sine
+    return angle + slope * h, fma(bend, h, slope), stiffness, h, later
 
 
 @kernel(inline=True)
@@ -203,8 +210,8 @@ def excess_of(p, arc, speed, far, jump):
         if abs(excess) > jump:
             total += excess / gain
             doubt += approach.bend * excess * excess / gain
-            if approach.slope > 0.0:
-                doubt += approach.slope * abs(excess) / gain
+            if approach.is_rough:
+                doubt += abs(excess) / gain
             velocity = wanted
         angle, velocity, q, h, drive = smooth_step(p, arc.side, angle, velocity, drive)
         least, z = min(least, q), q * h * h
@@ -245,6 +252,8 @@ def margin_of(p, arc, estimate, in_batch):
         if doubt == math.inf:
             return math.nan
         speed, jump = speed - excess, min(WIDER * jump, approach.widest)
+        if approach.is_rough:
+            doubt += abs(excess)
         if doubt <= settled:
             return (arc.velocity - speed) / unit if least > 0.0 or is_unique(p, arc) else math.nan
     return math.nan
