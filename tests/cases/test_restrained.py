@@ -257,7 +257,7 @@ RECORDS = rk.synthetic_ground_motions(2, seed=3)
         ),
         (
             lambda: rk.Block(2.0, 0.4, wall=rk.Wall(0.5)).restrained(1.0, mass=1.0),
-            "wall must be omitted for a restr",
+            "wall must be omitted for a restrained block; got one with e_w = 0.5",
         ),
         (
             lambda: rk.Block(2.0, 0.4, left_restitution=0.5).restrained(1.0, mass=1.0),

@@ -250,7 +250,8 @@ class Block(Dimensions):
     def _check_restrained(self, restrainer: Restrainer) -> None:
         """Refuse a restrainer of a block whose sides differ, one that is too stiff, and units that it does not have."""
         allowed = "be omitted for a restrained block"
-        refuse_if(self.wall is not None, "wall", allowed, Text(str(self.wall)))
+        if self.wall is not None:
+            raise Refusal("wall", allowed, Text(f"one with e_w = {self.wall.restitution:g}"))
         refuse_if(self.offset != 0, "offset", allowed, self.offset, "the restrainer is on its centre line")
         refuse_if(not self.has_equal_sides, "left_restitution", allowed, self.left_restitution)
         if self.normalised_by != "angle":
