@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.cli.output import WARNING, Row
-from rocking.model.block import Block
+from rocking.model.block import Block, unit_for
 from rocking.model.block_formulas import GRAVITY, with_unit
 from rocking.model.forcing import Pulse
 from rocking.model.quantity import IN_SI
@@ -192,7 +192,8 @@ def equation_line(block: Block, attributes: Mapping[str, Any]) -> str:
 
 def survey_warnings(block: Block, attributes: Mapping[str, Any]) -> list[str]:
     """Return the warnings about the block of a survey of ground motions with these attributes."""
-    block = with_unit(block, attributes.get("normalised_by", "angle"))
+    by = unit_for(block, attributes.get("normalised_by", "angle"), attributes["model"])
+    block = with_unit(block, by)
     return block_warnings(block, (), block.restitution, full=attributes["model"] == "full")
 
 
