@@ -255,15 +255,9 @@ class Block(Dimensions):
         refuse_if(self.offset != 0, "offset", allowed, self.offset, "the restrainer is on its centre line")
         refuse_if(not self.has_equal_sides, "left_restitution", allowed, self.left_restitution)
         if self.normalised_by != "angle":
-            self.check_balance()
-        allowed = f"be at most {STIFFEST * self._stiffness_unit:.6g} N/m, where κ = {STIFFEST:g}"
+            check_balance(self)
+        allowed = f"be at most {STIFFEST * self.stiffness_unit:.6g} N/m, where κ = {STIFFEST:g}"
         refuse_if(self.stiffness_ratio > STIFFEST, "stiffness", allowed, restrainer.stiffness)
-
-    def check_balance(self) -> None:
-        """Raise ValueError for a restrainer so stiff that a slender block has no unstable balance."""
-        if self.restrainer is not None and self.stiffness_ratio >= 1.0:
-            allowed = f"be below {self._stiffness_unit:.6g} N/m, from where on a slender block has no unstable balance"
-            raise Refusal("stiffness", allowed, self.restrainer.stiffness, "the full {model} takes any")
 
     def _check_mass_centre(self) -> None:
         """Refuse a mass centre that is not above the base, and an inertia that is stated twice or that no body has."""
@@ -417,14 +411,20 @@ class Block(Dimensions):
     @property
     def stiffness_ratio(self) -> float:
         """Ratio κ = (EA/L) b sin θcr/(Mg) of the stiffness of the restrainer to that of gravity; 0 without one."""
-        return 0.0 if self.restrainer is None else self.restrainer.stiffness / self._stiffness_unit
+        if self.restrainer is None:
+            return 0.0
+        return self.restrainer.stiffness * self._lever / (self.restrainer.mass * GRAVITY)
 
     @property
-    def _stiffness_unit(self) -> float:
-        """Stiffness EA/L in N/m with κ = 1; infinite without a restrainer."""
+    def stiffness_unit(self) -> float:
+        """Stiffness EA/L of the restrainer in N/m with which κ would be 1; infinite without a restrainer."""
         if self.restrainer is None:
             return math.inf
-        return self.restrainer.mass * GRAVITY / (self.edges[0] * math.sin(self.critical_angle))
+        return self.restrainer.mass * GRAVITY / self._lever
+
+    @property
+    def _lever(self) -> float:
+        return self.edges[0] * math.sin(self.critical_angle)
 
     @property
     def prestress_ratio(self) -> float:
@@ -846,10 +846,19 @@ class Block(Dimensions):
         return f"Block(height={self.height} m, width={self.width} m, {values})"
 
 
+def check_balance(block: Block) -> None:
+    """Raise ValueError for a restrainer so stiff that a slender block has no unstable balance."""
+    if block.restrainer is not None and block.stiffness_ratio >= 1.0:
+        allowed = (
+            f"be below {block.stiffness_unit:.6g} N/m, from where on a slender block has no unstable balance"
+        )
+        raise Refusal("stiffness", allowed, block.restrainer.stiffness, "the full {model} takes any")
+
+
 def check_restrained_model(block: Block, model: str, *, harmonic: bool = False) -> None:
     """Raise ValueError for the full equation of a restrained block on a harmonic base, and for a slender one without a balance."""
     if one_of("model", model, MODELS) == "slender":
-        block.check_balance()
+        check_balance(block)
     elif harmonic and block.restrainer is not None:
         raise Refusal("model", "be 'slender' for a restrained block on a harmonic base", model)
 
