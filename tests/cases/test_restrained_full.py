@@ -2,17 +2,20 @@
 
 import itertools
 import math
+import sys
 from pathlib import Path
 
 import flint
 import mpmath
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.integrate import solve_ivp
 
 import rocking as rk
 from oracles import full_taylor
 from oracles import unsymmetric as oracle
+from rocking.cli.main import run
 from rocking.kernels.arc import full_step
 from rocking.kernels.block.restrained import restrained_under_samples
 from rocking.kernels.contract import arc_at, drive_on_clock, margin_of, never_returns
@@ -455,3 +458,25 @@ def test_the_block_of_a_system_has_its_units():
     for name in ("radians", "seconds", "acceleration"):
         assert float(getattr(full, name)(1.0)) == float(getattr(BLOCK, name)(1.0))
     assert (slender.by_balance, full.by_balance, block.by_balance) == (True, False, False)
+
+
+@pytest.mark.parametrize("model", ["slender", "full"])
+def test_command_of_a_spectrum_gives_the_outcomes_of_single_motions(model, tmp_path, monkeypatch):
+    path, block = tmp_path / "spectrum.nc", restrained(BLOCK, 0.3, 0.2)
+    own = block.restrainer
+    values = ["--height", 2, "--width", 0.6, "--mass", MASS, "--restrainer-stiffness", own.stiffness]
+    values += ["--restrainer-prestress", own.prestress, "--pulse", "one-sine", "--model", model]
+    values += ["--acceleration-g", "0.4:2:5", "--frequency-hz", "0.5:2:3", "--netcdf", path]
+    monkeypatch.setattr(sys, "argv", ["rocking", "overturning-spectrum", *map(str, values)])
+    assert run() == (0, "")
+    with xr.open_dataset(path) as data:
+        outcomes = data.outcome.transpose("amplitude", "frequency").values
+        np.testing.assert_allclose(data.amplitude.values, GRAVITY * np.linspace(0.4, 2.0, 5), rtol=1e-12)
+        np.testing.assert_allclose(data.frequency.values, [0.5, 1.25, 2.0], rtol=1e-12)
+    fell = outcomes == list(rk.Outcome).index(rk.Outcome.OVERTURNED)
+    assert 0 < fell.sum() < fell.size
+    for k, size in enumerate(np.linspace(0.4, 2.0, 5).tolist()):
+        for n, frequency in enumerate((0.5, 1.25, 2.0)):
+            pulse = rk.Pulse("one-sine", amplitude=size * GRAVITY, duration=1.0 / frequency)
+            motion = rk.simulate(block.system(pulse, model=model))
+            assert fell[k, n] == (motion.outcome == "overturned")

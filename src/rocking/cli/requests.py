@@ -30,7 +30,7 @@ from rocking.cli.options import (
     refusals,
 )
 from rocking.model.block import Block
-from rocking.model.block_formulas import acceleration_unit_g, with_unit
+from rocking.model.block_formulas import with_unit
 from rocking.model.forcing import Harmonic, Pulse
 from rocking.model.quantity import FRICTION, SYSTEM_QUANTITIES
 from rocking.model.restitution import Restitution
@@ -54,6 +54,7 @@ LAWS = ("restitution_factor", "restitution_table", "restitution_scatter")
 OTHER = {
     *LAWS,
     *SYSTEM,
+    *RESTRAINER,
     *START,
     *OUTPUTS,
     "model",
@@ -254,7 +255,7 @@ def unit_ratio(block: Block | None) -> float:
     """Return g θcr in units of the acceleration of a block; 1 for normalised input."""
     if block is None:
         return 1.0
-    return block.critical_angle / acceleration_unit_g(block.critical_angle, block.normalised_by)
+    return block.critical_angle / block.acceleration_unit_g
 
 
 def standing_of(options: Options) -> dict[str, Any]:
@@ -732,4 +733,6 @@ def overturning_spectrum(options: Options) -> Request:
             system = block.system(pulse, **select(options, "model", "normalised_by"))
     if "amplitude" in axes:
         axes["amplitude"] = axes["amplitude"] * unit_ratio(system.block)
+    if "frequency" in axes and system.block is not None:
+        axes["frequency"] = axes["frequency"] * (system.block.frequency_parameter / system.block.rate_unit)
     return evolve(survey_request(options, {"system": system} | axes), block=system.block)
