@@ -401,6 +401,7 @@ class Block(Dimensions):
         >>> restrained = block.restrained(stiffness=9e4, prestress=1200.0, mass=600.0)
         >>> round(restrained.stiffness_ratio, 4), round(restrained.prestress_ratio, 4)
         (0.5999, 0.2039)
+        >>> from rocking import Pulse
         >>> pulse = Pulse("one-sine", amplitude=3.0, duration=0.5)
         >>> own = restrained.system(pulse, model="slender").block
         >>> round(float(own.degrees(1.0) / block.degrees(1.0)), 4)
