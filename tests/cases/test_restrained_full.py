@@ -480,3 +480,10 @@ def test_command_of_a_spectrum_gives_the_outcomes_of_single_motions(model, tmp_p
             pulse = rk.Pulse("one-sine", amplitude=size * GRAVITY, duration=1.0 / frequency)
             motion = rk.simulate(block.system(pulse, model=model))
             assert fell[k, n] == (motion.outcome == "overturned")
+
+
+def test_results_state_the_ratios_of_the_restrainer():
+    system = restrained(BLOCK, 0.3, 0.2).system(rk.example_ground_motion().scaled(pga=5.0))
+    result = rk.simulate(system).to_dict()
+    assert (result["stiffness_ratio"], result["prestress_ratio"]) == pytest.approx((0.3, 0.2), rel=1e-14)
+    assert "stiffness_ratio" not in rk.simulate(BLOCK.system(rk.example_ground_motion())).to_dict()

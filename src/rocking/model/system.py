@@ -519,7 +519,7 @@ class System:
 
 
 def quantities(system: System) -> dict[str, float]:
-    """Return the quantities of a system by name; the critical angle and those of braces and of the left side only if it has them.
+    """Return the quantities of a system by name; those of the full equation, braces, a restrainer and the left side only if it has them.
 
     Examples
     --------
@@ -532,6 +532,8 @@ def quantities(system: System) -> dict[str, float]:
         rows["critical_angle"] = system.critical_angle
     if braces is not None:
         rows |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+    if system.is_restrained:
+        rows |= {"stiffness_ratio": system.stiffness_ratio, "prestress_ratio": system.prestress_ratio}
     return rows | left_quantities(system.left)
 
 
