@@ -18,6 +18,7 @@ from rocking.model.system import LeftSide as LeftSide
 from rocking.model.system import State as State
 from rocking.model.system import System as System
 from rocking.model.system import Wall as Wall
+from rocking.model.validation import ContactLost as ContactLost
 from rocking.model.validation import InputWarning as InputWarning
 from rocking.model.validation import NoOrbit as NoOrbit
 from rocking.model.validation import RecordError as RecordError

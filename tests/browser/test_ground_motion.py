@@ -315,6 +315,45 @@ def test_page_answers_only_on_this_machine(running):
 
 
 @pytest.mark.long
+def test_restrainer_takes_effect_with_the_mass(ground):
+    visitor = ground()
+
+    def told(act, words):
+        act()
+        visitor.until(
+            "words => document.getElementById('stiffness-refused').textContent.includes(words)", words
+        )
+
+    def fill(name, value):
+        visitor.page.fill(f"#{name}", value)
+        visitor.page.press(f"#{name}", "Enter")
+
+    told(lambda: fill("stiffness", "2e4"), "needs the mass")
+    settled(visitor, lambda: fill("mass", "600"))
+    assert "stiffness=20000&mass=600" in visitor.page.url
+    assert "unstable balance θu" not in facts(visitor)
+    settled(visitor, lambda: visitor.page.select_option("#model", "slender"))
+    assert "stiffness=20000&mass=600&model=slender" in visitor.page.url
+    block = rk.Block(2.0, 0.5, normalised_by="balance").restrained(2e4, mass=600.0)
+    assert facts(visitor)["unstable balance θu"] == f"{block.degrees(1.0):.4g}°"
+    settled(visitor, lambda: visitor.page.select_option("#model", "full"))
+    settled(visitor, lambda: fill("stiffness", ""))
+    assert "stiffness" not in visitor.page.url
+    assert "model" not in visitor.page.url
+    visitor.see("ground-restrained")
+    visitor.is_content()
+
+
+@pytest.mark.long
+def test_block_against_a_wall_moves_to_one_side(ground):
+    visitor = ground("?version=1&wall=0.5")
+    assert facts(visitor)["e"] == "0.5 (wall)"
+    assert figure(visitor, "history")["angle"].min() == 0.0
+    visitor.see("ground-wall")
+    visitor.is_content()
+
+
+@pytest.mark.long
 def test_full_equation_of_motion_changes_the_map_and_the_verdict(ground):
     visitor = ground("?version=1&source=pulse&amplitude=0.35&duration=0.6&scale=1")
     visitor.finished()

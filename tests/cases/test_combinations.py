@@ -48,6 +48,7 @@ KINDS = {
     "full, unsymmetric": {"critical_angle": 0.25, "left": LEFT},
     "slender, wall": {"left": WALL, "restitution": 0.5},
     "full, wall": {"critical_angle": 0.25, "left": WALL, "restitution": 0.5},
+    "full, restrained": {"critical_angle": 0.25, "stiffness_ratio": 0.3, "prestress_ratio": 0.2},
     "slender, restrained": {"block": rk.Block(2.0, 0.5, 0.9).restrained(4e4, 900.0, mass=600.0)},
 }
 AMPLITUDES = np.array([1.5, 2.0, 2.5])
@@ -139,6 +140,20 @@ CALLS = {
     ),
     "`simulate` under samples": lambda kind: rk.simulate(
         of(kind, forcing=rk.PiecewiseLinear([0.0, 2.0, -2.0, 0.0], step=0.5))
+    ),
+    "`simulate` under samples, with vertical motion": lambda kind: rk.simulate(
+        of(
+            kind,
+            forcing=rk.PiecewiseLinear([0.0, 2.0, -2.0, 0.0], step=0.5),
+            vertical=rk.PiecewiseLinear([0.0, -0.3, 0.4, 0.0], step=0.5),
+        )
+    ),
+    "`simulate` under a pulse, with vertical motion": lambda kind: rk.simulate(
+        of(
+            kind,
+            forcing=rk.Pulse("one-sine", amplitude=2.0, duration=1.0),
+            vertical=rk.PiecewiseLinear([0.0, -0.3, 0.4, 0.0], step=0.5),
+        )
     ),
     "`overturning_spectrum`": lambda kind: rk.overturning_spectrum(
         of(kind, forcing=rk.Pulse("ricker", amplitude=2.0, duration=1.0)),

@@ -3,7 +3,8 @@
 They are DOP853 of SciPy with events, and Runge-Kutta of order 4 with located impacts.
 Nothing is taken from the package. The equation is that of the angle theta in rad, in units of time 1/p of the right side. With w =
 alpha_i sigma - theta on side sigma, theta'' = -p_i^2 (sin w + a cos w), or -p_i^2 (w + a) for a slender block; a is in g. A restrainer
-with the ratios kappa of its stiffness and rho of its force adds kappa theta + sigma rho alpha to w + a.
+with the ratios kappa of its stiffness and rho of its force adds kappa sin theta + sigma rho sin(alpha) cos(theta/2) to sin w + a cos w,
+and kappa theta + sigma rho alpha to w + a.
 """
 
 import math
@@ -29,7 +30,7 @@ class Block(NamedTuple):
     restitution: tuple[float, float]
     full: bool
     wall: bool = False
-    kappa: float = 0.0  # for a slender block alone, as rho
+    kappa: float = 0.0  # for equal sides alone, as rho
     rho: float = 0.0
 
 
@@ -69,13 +70,16 @@ def bend_of(block, side, theta, push):
     i = 0 if side > 0 else 1
     w, square = block.alpha[i] * side - theta, block.rate[i] * block.rate[i]
     if block.full:
-        return -square * (math.sin(w) + push * math.cos(w))
+        tied = block.kappa * math.sin(theta) + side * block.rho * math.sin(block.alpha[i]) * math.cos(
+            0.5 * theta
+        )
+        return -square * (math.sin(w) + push * math.cos(w) + tied)
     return -square * (w + push + block.kappa * theta + side * block.rho * block.alpha[i])
 
 
 @njit
 def level_of(block, i):
-    return math.tan(block.alpha[i]) if block.full else block.alpha[i] * (1.0 + block.rho)
+    return (math.tan(block.alpha[i]) if block.full else block.alpha[i]) * (1.0 + block.rho)
 
 
 @njit

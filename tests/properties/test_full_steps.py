@@ -35,7 +35,7 @@ def kernels():
     @njit
     def take(p, side, angle, velocity, drive):
         made = step(p, side, angle, velocity, drive)
-        error = bound(p, side, velocity, made.series, made.length, drive, LONG)
+        error = bound(p, side, velocity, made.series, made.sine, made.length, drive, LONG)
         return made, state(made, made.length), error, clear(p, side, made, drive)
 
     return find, take

@@ -46,6 +46,10 @@ SADDLE = rk.System(rk.Harmonic(amplitude=4.0, period=1.0), restitution=0.8)
 FORCED = rk.System(rk.Harmonic(amplitude=6.0, period=2.0), restitution=0.925)
 LOSSLESS = rk.System(rk.Harmonic(amplitude=4.0, period=0.4), restitution=1.0)
 PULSED = rk.System(rk.Pulse("one-sine", amplitude=2.0, duration=1.0), restitution=0.9)
+RESTRAINED = {
+    "forcing": rk.PiecewiseLinear([0.0, 3.0, -3.0, 0.0], step=0.5), "restitution": 0.9, "critical_angle": 0.3, "stiffness_ratio": 0.5,
+    "prestress_ratio": 0.3,
+}  # fmt: skip
 GROUND = rk.GroundMotion([0.0, 3.0, -3.0, 2.0, 0.0, 0.0], step=0.1)
 RECORDS = rk.RecordSet([GROUND, rk.GroundMotion([0.0, 2.0, -4.0, 1.0, 0.0], step=0.1)])
 SURVEY = {"records": RECORDS, "block": BLOCK}
@@ -206,6 +210,7 @@ def targets():
     """All calls: name, callable, and the arguments of a cheap call."""
     found = {name: (getattr(rk, name), usual()) for name, usual in USUAL.items()}
     found["manifold_gap"] = manifold_gap, {"system": SADDLE}
+    found["restrained"] = rk.System, RESTRAINED
     for name in rk.theory.__all__:
         function = getattr(rk.theory, name)
         required = [

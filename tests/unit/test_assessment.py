@@ -15,7 +15,7 @@ from rocking.assessment.assess import block_digest
 from rocking.assessment.drawing import block_to_scale, scale_of
 from rocking.assessment.page import page, write_page
 from rocking.assessment.sentences import answers_of
-from rocking.assessment.shown import record_table, rule_table
+from rocking.assessment.shown import block_table, record_table, rule_table
 from rocking.assessment.tables import TABLES, tables, write_csv, write_xlsx
 from rocking.cli.assessment_file import read_case
 
@@ -89,6 +89,32 @@ def test_unequal_sides_take_the_worse_direction():
     assert result.dataset.attrs["polarity"] == "worse"
     assert np.isnan(result.dataset.fema_356.item())
     assert "symmetric blocks only" in page([result], "t", "")
+
+
+def test_block_against_a_wall_takes_the_worse_direction_and_says_what_it_leaves_out():
+    block = rk.Block(2.0, 0.6, wall=rk.Wall(0.4))
+    ground = RECORDS[1].scaled(pga=0.7 * G)
+    result = rk.assess([ground], block, [0.3, 0.7], friction=0.4)
+    both = [rk.simulate(block.system(each)) for each in (ground, ground.reversed())]
+    assert both[0].peak != both[1].peak
+    assert result.dataset.peak.item() == max(motion.peak for motion in both)
+    assert result.dataset.friction.item() == max(motion.validity(block).friction for motion in both)
+    assert result.dataset.slides.item() == (result.dataset.friction.item() > 0.4)
+    text = page([result], "t", "")
+    assert dict(block_table(block).rows)["restitution e_w of the wall"] == "0.4"
+    assert "0.300 g, away from the wall" in text
+    assert "symmetric blocks only" in text
+    assert "It stands against a wall on the side θ &lt; 0" in text
+    assert text.count("impacts against the wall") == 2
+    free = page([rk.assess([ground], CABINET, [0.3, 0.7])], "t", "")
+    assert "wall" not in free
+
+
+@pytest.mark.parametrize("offset, rocks", [(0.1, True), (-0.1, False)])
+def test_block_against_a_wall_slides_by_the_angle_of_its_free_side(offset, rocks):
+    block = rk.Block(2.0, 0.6, offset=offset, wall=rk.Wall(0.4))
+    result = rk.assess(RECORDS[:1], block, [0.3, 0.7], friction=0.3)
+    assert ("does not rock" in str(result)) == (not rocks)
 
 
 @pytest.mark.parametrize("polarity", ["worse", "+"])
@@ -231,7 +257,10 @@ def test_rules_are_counted_and_shown_for_few_records(assessed, monkeypatch):
     assert rule_table(assessed).rows == few[:1]
 
 
-@pytest.mark.parametrize("block", [CABINET, rk.Block(0.3, 0.1), rk.Block(9.6, 1.6, offset=0.1)])
+@pytest.mark.parametrize(
+    "block",
+    [CABINET, rk.Block(0.3, 0.1), rk.Block(9.6, 1.6, offset=0.1), rk.Block(2.0, 0.6, wall=rk.Wall(0.4))],
+)
 def test_drawing_is_to_scale(block):
     drawing = block_to_scale(block)
     scale = scale_of(block)
@@ -243,6 +272,7 @@ def test_drawing_is_to_scale(block):
     paper = np.ptp(x) * 25.4 / 72, np.ptp(y) * 25.4 / 72
     assert paper == pytest.approx((1e3 * block.width / scale, 1e3 * block.height / scale), rel=1e-4)
     assert max(paper) <= 60.001
+    assert ('id="wall"' in drawing.svg) == ("wall" in drawing.text) == (block.wall is not None)
 
 
 def test_tables_hold_the_results_in_files_that_excel_reads(assessed, tmp_path):
@@ -362,6 +392,14 @@ def test_sizes_have_their_unit_in_the_key(unit, factor):
     assert only.block == rk.Block(2.0, 0.6, offset=0.05, centre_height=0.9, radius_of_gyration=0.6)
 
 
+def test_wall_is_read_and_the_page_is_written(rocking):
+    code, message, out = typed(rocking, CASE.replace("width_mm", "wall = 0.4\nwidth_mm"))
+    assert (code, message) == (0, "")
+    (only,) = read_case(Path("case.toml")).blocks
+    assert only.block == rk.Block(2.0, 0.6, wall=rk.Wall(0.4))
+    assert "both directions, of which the worse one counts" in out
+
+
 def test_several_blocks_limits_levels_and_hazard_are_read():
     Path("hazard.csv").write_text("PGA (g),rate\n0.1,1e-2\n0.5,1e-3\n")
     text = CASE.replace(
@@ -395,6 +433,12 @@ def test_several_blocks_limits_levels_and_hazard_are_read():
         ('source = "set"', "synthetic = 0", "records: synthetic in [records] must be a whole number in [1,"),
         ("height_mm", "offset_cm = 40\nheight_mm", "offset_cm in [block], in metres, must lie between -0.3 and 0.3 m, so that the"),
         ("width_mm", "friction = 11\nwidth_mm", "friction in [block] must lie in [0, 10]; got 11"),
+        ("width_mm", "wall = 1.4\nwidth_mm", "wall in [block] must lie in [0, 1]; got 1.4"),
+        ("width_mm", "wall = 'hard'\nwidth_mm", "wall in [block] must be a number; got 'hard'"),
+        ("width_mm", "wall = true\nwidth_mm", "wall in [block] must be a number; got True"),
+        ("width_mm", "wall = 0.4\nrestitution = 0.9\nwidth_mm", "give restitution or wall in [block], not both"),
+        ("width_mm", "wall = 0.4\nrestitution_factor = 0.9\nwidth_mm", "give restitution_factor or wall in [block], not both"),
+        ("width_mm", "mass = 600\nrestrainer_stiffness = 9e4\nwidth_mm", "restrainer_stiffness in [block] must be omitted: an"),
         ("[0.5, 1.0]", "[0.5, 1.0]\ndesing = 0.7", "unknown 'desing' in [levels] (did you mean 'design'?)"),
         ("[0.5, 1.0]", "[0.5, 1.0]\npgv_m_per_s = 0.7", "give exactly one of scale, pga_m_per_s2, pga_g, "),
         ('"set"', '"set"\ncomponent = "second"', "records: component in [records] must be one of 'all', 'first', 'larger'"),

@@ -304,6 +304,8 @@ REFUSED = {
         f"push.csv {SI} --restitution 2": "--restitution must lie in [0, 1]; got 2",
         f"push.csv {SI} --friction 0": "--friction must lie in [0.001, 10]; got 0",
         "push.csv --height 2": "missing --width: give --height and --width",
+        "push.csv --height 2 --width 1 --wall 0.5 --restitution 0.9": "give --restitution or --wall, not both",
+        "push.csv --height 2 --width 1 --wall 0.5 --restitution-scatter 0.1:normal:1": "give --restitution-scatter or --wall, not",
     },
     "slide": {
         "--friction 0.3": "Missing argument 'FILE'.",
@@ -352,6 +354,9 @@ REFUSED = {
         f"{MAP} --store map --tiles ./map": "--store and --tiles must differ; got 'map' for both",
         f"{MAP} --plot map.png --tiles map.png": "--tiles and --plot must differ; got 'map.png' for both",
         f"{MAP} --store=": "--store must be the path of a folder; got ''",
+        f"{MAP} --store {__file__}": f"--store must be the path of a folder; got {__file__!r}, which is a file",
+        f"{MAP} --store {__file__}/map": "--store must be a folder that can be written; got",
+        f"{MAP} --store {Path(__file__).parent}": "--store must be a new folder, or the folder of an earlier survey; got",
         f"{MAP} --tiles .": "--tiles must not contain the working directory; got '.'",
         f"{MAP} --tiles {Path(__file__).parent}": "--tiles must be new, empty, or hold only an earlier index.html with its files; got "
         f"{str(Path(__file__).parent)!r}, which holds other files",

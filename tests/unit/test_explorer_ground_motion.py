@@ -60,6 +60,9 @@ G = 9.80665
 CODE = tuple(Outcome).index(Outcome.OVERTURNED)
 SHORT = rk.GroundMotion([0.0, 4.0, -6.0, 5.0, -2.0, 0.0], step=0.25, name="short")
 RANGES = Span(0.3, 3.0), Span(5.0, 40.0)
+WALL = {"wall": "0.5"}
+RESTRAINED = {"model": "slender", "stiffness": "2e4", "prestress": "800", "mass": "600"}
+"""Fields of a block against a wall, and of a restrained one."""
 MEASURE = Endings(*RANGES, BlockEndings(SHORT, 1.0, "slender"))
 
 
@@ -123,6 +126,15 @@ def test_link_gives_the_view_back(shown):
         ({"sizes": "1:1.0001"}, "sizes"),
         ({"angles": "3"}, "angles"),
         ({"height": "0.1", "width": "50"}, "width"),
+        ({"wall": "1.5"}, "wall"),
+        ({"stiffness": "-1"}, "stiffness"),
+        ({"prestress": "much"}, "prestress"),
+        ({"mass": "0"}, "mass"),
+        ({"model": "slender", "stiffness": "2e4"}, "stiffness"),
+        ({"model": "slender", "prestress": "500"}, "prestress"),
+        (RESTRAINED | {"stiffness": "1e6"}, "stiffness"),
+        (RESTRAINED | {"wall": "0.5"}, "wall"),
+        (RESTRAINED | {"offset": "0.05"}, "offset"),
         ({"colour": "red"}, "page"),
     ],
 )
@@ -130,6 +142,22 @@ def test_invalid_field_is_refused_by_its_name(typed, field):
     with pytest.raises(Refused) as caught:
         DEFAULT.changed(typed)
     assert list(caught.value.fields) == [field]
+
+
+@pytest.mark.parametrize("typed", [WALL, RESTRAINED, {"model": "slender", "prestress": "500", "mass": "6"}])
+def test_wall_and_restrainer_are_part_of_a_link_and_no_block_of_the_map_has_them(typed):
+    view = DEFAULT.changed(typed)
+    assert GroundView.from_address("?" + view.address) == (view, {})
+    assert all(f"{name}={value}" in view.address.replace("20000", "2e4") for name, value in typed.items())
+    block = view.changed(view.at_point(1.0, 15.0)).block
+    assert (block.wall, block.restrainer) == (None, None)
+
+
+def test_mass_alone_restrains_no_block_and_a_link_without_it_says_so():
+    assert DEFAULT.changed({"mass": "600"}).block == DEFAULT.block
+    view, refused = GroundView.from_address("?version=1&scale=2&model=slender&stiffness=2e4&prestress=3")
+    assert (view.scale, view.block) == (2.0, DEFAULT.block)
+    assert refused == {name: f"{name} needs the mass of the block" for name in ("stiffness", "prestress")}
 
 
 def test_invalid_link_keeps_the_default_of_its_field_and_says_so():
@@ -401,6 +429,56 @@ def test_time_history_and_verdict_are_those_of_the_simulation():
     assert words["decided"]
     assert f"{motion.validity(shown.block).friction:.3g}" in words["validity"][0]
     assert f"{-motion.margin:.3g} α θcr" in words["margin"]
+
+
+@pytest.mark.parametrize("model", ["slender", "full"])
+def test_block_against_a_wall_is_described_so(model):
+    shown = DEFAULT.changed(WALL | {"model": model})
+    drawn, words = block_motion(shown, Ground(SHORT))
+    motion = rk.simulate(rk.Block(2.0, 0.5, wall=rk.Wall(0.5)).system(SHORT.scaled(5.0), model=model))
+    facts = dict(words["facts"])
+    assert (facts["impacts"], facts["e"]) == (str(motion.impacts), "0.5 (wall)")
+    assert facts["lifts off at"].startswith("−0.25 g")
+    assert drawn["history"]["below"] == 0.0 < drawn["history"]["above"]
+    assert drawn["history"]["line"]["angle"].min() == 0.0
+    assert -0.1 < drawn["history"]["ranges"][2] / drawn["history"]["ranges"][3] < 0.0
+    assert words["sentence"].endswith("The blocks of the map have no wall.")
+    assert any(sentence.startswith("Wall: ") for sentence in words["validity"])
+
+
+def test_restrained_block_is_described_by_its_unstable_balance():
+    shown = DEFAULT.changed(RESTRAINED | {"scale": "1.4"})
+    block = rk.Block(2.0, 0.5).restrained(2e4, 800.0, mass=600.0)
+    assert shown.block == block
+    drawn, words = block_motion(shown, Ground(SHORT))
+    motion = rk.simulate(block.system(SHORT.scaled(1.4), model="slender"))
+    block = motion.system.block
+    history = drawn["history"]
+    assert np.abs(history["line"]["angle"]).max() == pytest.approx(block.degrees(motion.peak), rel=1e-4)
+    assert history["above"] == -history["below"] == block.degrees(1.0) > 14.1
+    facts = dict(words["facts"])
+    assert facts["θcr"] == "14.04°"
+    assert facts["restrainer"] == f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}"
+    assert facts["unstable balance θu"] == f"{block.degrees(1.0):.4g}°"
+    assert facts["lifts off at"] == f"{0.25 * (1 + block.prestress_ratio):.4g} g"
+    assert facts["largest |θ|"].endswith(" θu")
+    assert "θcr" not in words["margin"]
+    assert words["sentence"].endswith("The blocks of the map have no restrainer.")
+    assert words["validity"][0] == "Sliding and jumping of a restrained block are not checked."
+
+
+def test_restrained_block_with_the_full_equation_is_described_by_its_critical_angle():
+    shown = DEFAULT.changed(RESTRAINED | {"scale": "1.4", "model": "full"})
+    drawn, words = block_motion(shown, Ground(SHORT))
+    block = rk.Block(2.0, 0.5).restrained(2e4, 800.0, mass=600.0)
+    motion = rk.simulate(block.system(SHORT.scaled(1.4)))
+    history, facts = drawn["history"], dict(words["facts"])
+    assert np.abs(history["line"]["angle"]).max() == pytest.approx(block.degrees(motion.peak), rel=1e-4)
+    assert history["above"] == -history["below"] == pytest.approx(math.degrees(block.critical_angle))
+    assert "unstable balance θu" not in facts
+    assert facts["lifts off at"] == f"{0.25 * (1 + block.prestress_ratio):.4g} g"
+    assert facts["largest |θ|"].endswith(" θcr")
+    assert words["validity"] == ["Sliding and jumping of a restrained block are not checked."]
 
 
 def test_full_equation_of_motion_has_a_margin_and_is_certified():

@@ -160,3 +160,10 @@ def test_figure_of_a_record_states_the_outcome(model, pga, expected):
     block, record = rk.Block(2.0, 0.5), rk.example_ground_motion()
     motion = rk.simulate(block.system(record.scaled(pga=pga), model=model, normalised_by="angle"))
     assert rk.plot.time_history(motion, block=block).get_title("right") == expected
+
+
+def test_figure_of_a_restrained_block_is_drawn_in_units_of_its_balance():
+    block = rk.Block(2.0, 0.4).restrained(9e4, 1200.0, mass=600.0)
+    motion = rk.simulate(block.system(rk.example_ground_motion().scaled(pga=20.0), model="slender"))
+    said = rk.plot.time_history(motion, block=block).get_title("right")
+    assert said == r"overturns, drawn to 3 $\theta_\mathrm{u}$"

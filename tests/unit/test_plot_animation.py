@@ -114,6 +114,18 @@ def test_small_angles_are_exaggerated_and_the_picture_says_by_how_much():
     assert film.scene.outlines[..., 1].max() == pytest.approx(expected)
 
 
+@pytest.mark.parametrize("block", [None, BLOCK])
+def test_film_of_a_block_against_a_wall_shows_the_wall_and_one_side(block):
+    base = rk.PiecewiseLinear([-3.0, -3.0], step=2.0)
+    motion = rk.simulate(rk.System(base, restitution=0.5, left=rk.Wall(0.5)))
+    _, film = film_of(motion, block, count=20)
+    assert [part.get_gid() for part in film.scene.parts].count("wall") == 1
+    below = film.figure.axes[1]
+    guides = [line.get_ydata()[0] for line in below.lines if line.get_gid() == "critical angle"]
+    assert guides == [0.0, film.units.angle(1.0)]
+    assert -0.1 < below.get_ylim()[0] / below.get_ylim()[1] < 0.0
+
+
 @pytest.mark.parametrize("motion", [rk.simulate(FALLING, cycles=50), rk.simulate(PUSHED)])
 def test_fall_is_shown_until_the_block_lies_flat(tmp_path, motion):
     frames = gif_frames(rk.plot.animation(motion, tmp_path / "a.gif", BLOCK, seconds=2, fps=10))

@@ -284,6 +284,26 @@ def test_file_without_a_unit_beside_others_is_named_with_argument_and_table(fold
     )
 
 
+@pytest.mark.parametrize(
+    "lines, argument",
+    [
+        (WAVE, "units"),
+        (["time (s),acc (m/s2)", "0,0.1", "0.10,0.2", "0.50,0.3", "0.60,0.4"], "step"),
+        (["letter", "of words"], ""),
+    ],
+)
+def test_error_names_the_argument_that_a_file_lacks_and_of_several_files_the_column(folder, lines, argument):
+    saved(folder / "c.csv", map(str, lines))
+    with pytest.raises(rk.RecordError) as alone:
+        rk.read_ground_motions(folder / "c.csv")
+    with pytest.raises(rk.RecordError) as several:
+        rk.read_record_set(folder)
+    assert alone.value.argument == argument
+    assert (f"a table with a column {argument!r} gives it for each file" in str(several.value)) == bool(
+        argument
+    )
+
+
 def test_unit_and_step_of_several_files_are_those_of_the_files_that_state_none(folder):
     saved(folder / "c.txt", [f"{value}" for value in WAVE])
     files = sorted(folder.glob("?.*"))

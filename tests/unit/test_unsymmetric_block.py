@@ -71,6 +71,15 @@ def test_block_that_states_a_default_is_the_same_to_the_last_bit(left_out, state
     assert other.left is None
 
 
+@pytest.mark.parametrize("wall", [None, rk.Wall(0.5)])
+@pytest.mark.parametrize(
+    "given, differs", [({}, False), ({"offset": 0.05}, True), ({"left_restitution": 0.5}, True)]
+)
+def test_block_is_unsymmetric_with_two_sides_that_differ(given, differs, wall):
+    block = rk.Block(2.0, 0.6, **given, wall=wall)
+    assert block.is_unsymmetric == isinstance(block.left, rk.LeftSide) == (differs and wall is None)
+
+
 def test_mirror_image_of_a_block_exchanges_its_sides():
     mirrored = rk.Block(2.0, 0.6, offset=-0.05)
     for name in ("critical_angles", "frequency_parameters", "housner_restitutions"):

@@ -64,7 +64,7 @@ ROW = {
         rule: f"largest absolute angle by the design rule of {name} in units of theta_cr; NaN if it has no result"
         for rule, name in zip(("fema_356", "priestley"), ("FEMA 356", "Priestley"), strict=True)
     },
-    "ishiyama": "whether PGA and PGV exceed the levels of Ishiyama's rule; False for a block with unequal sides",
+    "ishiyama": "whether PGA and PGV exceed the levels of Ishiyama's rule; False for a block with unequal sides or against a wall",
 }
 """Variables over `record`: description, and unit if it is in SI."""
 
@@ -150,7 +150,8 @@ class Assessment(Result):
     def sliding_text(self) -> str:
         """Sentence on a block that slides and never rocks, because its friction is at most tan θcr; empty for any other block."""
         friction = self.dataset.attrs["friction_available"]
-        least = math.tan(min(self.block.critical_angles))
+        sides = self.block.critical_angles if self.block.wall is None else (self.block.critical_angle,)
+        least = math.tan(min(sides))
         if friction is None or friction > least:
             return ""
         return (
@@ -216,7 +217,8 @@ def assess(
     sa_period : float
         Period in s of the pseudo-acceleration of each record, at 5 % damping, in [0.01, 10]. Default: 1.
     polarity : {"+", "-", "worse"}, optional
-        Direction of the records, as in `rocking_spectrum`. Default: "worse" for a block with unequal sides, else "+".
+        Direction of the records, as in `rocking_spectrum`. Default: "worse" for a block with unequal sides or against a wall, else
+        "+".
     model : {"slender", "full"}
         Equation of motion, as for `Block.system`; the rows state both. Default: "full".
     seed : int
@@ -251,7 +253,8 @@ def assess(
     The friction is the largest |H|/N of a motion up to its end, or up to the instant from which overturning is certain, as in
     `Motion.validity`; with both directions it is that of the one that needs more. The fragility, the overturning set, the
     sensitivity and the rate do not consider friction. The design rules are those of `theory.design_angle` and
-    `theory.ishiyama_levels`. They take symmetric blocks only.
+    `theory.ishiyama_levels`. They take symmetric blocks only. Against a wall
+    the friction of the impacts is not assessed.
 
     Examples
     --------
@@ -262,7 +265,9 @@ def assess(
     (0, True)
     """
     chosen = record_set(records)
-    unrestrained(instance("block", block, Block), "block", "an assessment compares both equations of motion")
+    unrestrained(
+        instance("block", block, Block), "block", "an assessment needs the base reactions of a free block"
+    )
     instance("name", name, str)
     measure, _ = intensity_of(intensity, chosen)
     grid = np.atleast_1d(reals("levels", levels))

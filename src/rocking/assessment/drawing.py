@@ -18,10 +18,12 @@ SCALES = (1, 2, 5, 10, 20, 25, 50, 100, 200, 500, 1000, 2000, 5000, 10_000)
 """Scales 1 : n, the largest that fits is taken."""
 PAPER = (0.06, 0.06)
 """Largest width and height of the drawn block on paper, m."""
-SIDE, BELOW, ABOVE = 0.022, 0.018, 0.008
+SIDE, BELOW, ABOVE = 0.024, 0.018, 0.008
 """Margins of the drawing on paper, m: at both sides, below the base and above the block."""
 DEEP, GAP = 0.004, 0.0015
 """Depth of the base, and distance of texts from lines, on paper, m."""
+BESIDE = 0.0185
+"""Distance of the line of the height from a side with the value of an angle, on paper, m."""
 INCH = 0.0254
 
 
@@ -89,15 +91,17 @@ def block_to_scale(block: Block) -> Drawing:
         return figure
 
     edges = "" if block.offset == 0 else f", {millimetres(block.edges[1])} from the left edge"
-    at = f"mass centre {millimetres(block.centre_height)} above the base{edges}"
+    wall = "" if block.wall is None else ", against a wall at its left"
+    at = f"mass centre {millimetres(block.centre_height)} above the base{edges}{wall}"
     return Drawing(svg_of(draw), 1e3 * paper[0], f"Block, drawn to scale 1 : {scale:,}; {at}.")
 
 
 def _outline(ax: Axes, block: Block, scale: int) -> None:
-    """Draw the base and the block."""
+    """Draw the base, the block and its wall."""
     from matplotlib.patches import Rectangle
 
     from rocking.plot import style
+    from rocking.plot.film import wall_of
 
     half, deep = block.width / 2, DEEP * scale
     start, end = -half - 0.8 * SIDE * scale, half + 0.8 * SIDE * scale
@@ -105,10 +109,12 @@ def _outline(ax: Axes, block: Block, scale: int) -> None:
     ax.plot((start, end), (0, 0), color=style.INK, linewidth=style.LINE)
     look: dict[str, Any] = {"facecolor": style.BLOCK, "edgecolor": style.INK, "linewidth": style.LINE}
     ax.add_patch(Rectangle((-half, 0), block.width, block.height, **look))
+    if block.wall is not None:
+        ax.add_patch(wall_of(block))
 
 
 def _angles(ax: Axes, block: Block, scale: int) -> None:
-    """Draw the mass centre and the critical angles, that of the left edge with its value if it differs."""
+    """Draw the mass centre and the critical angles: that of the left edge with its value if it differs, and none at a wall."""
     from matplotlib.patches import Arc
 
     from rocking.plot import style
@@ -116,13 +122,14 @@ def _angles(ax: Axes, block: Block, scale: int) -> None:
     centre = block.offset, block.centre_height
     reach = min(0.4 * block.centre_height, 0.03 * scale)
     right, left = map(math.degrees, block.critical_angles)
-    for corner, angle, start, end, side in (
+    corners = [
         (block.width / 2, right, 90.0, 90.0 + right, "left"),
         (-block.width / 2, left, 90.0 - left, 90.0, "right"),
-    ):
+    ]
+    for corner, angle, start, end, side in corners[: 2 if block.wall is None else 1]:
         ax.plot((corner, centre[0]), (0, centre[1]), color=style.MOTION, linewidth=style.LINE)
         ax.add_patch(Arc((corner, 0), 2 * reach, 2 * reach, theta1=start, theta2=end, color=style.INK))
-        if side == "left" or block.left is not None:
+        if side == "left" or block.is_unsymmetric:
             at = corner + math.copysign(GAP * scale, corner), reach
             text = rf"$\theta_\mathrm{{cr}}$ = {angle:.1f}°"
             ax.annotate(text, at, ha=side, va="center", fontsize=style.SMALL)
@@ -130,7 +137,7 @@ def _angles(ax: Axes, block: Block, scale: int) -> None:
 
 
 def _sizes(ax: Axes, block: Block, scale: int) -> None:
-    """Draw the height at the left and the width below, with their values."""
+    """Draw the height at the left, or at the free side of a block against a wall, and the width below, with their values."""
     from rocking.plot import style
 
     arrow: dict[str, Any] = {
@@ -142,9 +149,11 @@ def _sizes(ax: Axes, block: Block, scale: int) -> None:
     }
     half, height = block.width / 2, block.height
     small: dict[str, Any] = {"fontsize": style.SMALL}
-    left, below = -half - 4 * GAP * scale, -2 * DEEP * scale
-    ax.annotate("", (left, 0), (left, height), arrowprops=arrow)
-    at = left - GAP * scale, height / 2
-    ax.annotate(millimetres(height), at, ha="right", va="center", rotation=90, **small)
+    apart, below = (4 * GAP if block.left is None else BESIDE) * scale, -2 * DEEP * scale
+    side, aligned = (-1, "right") if block.wall is None else (1, "left")
+    along = side * (half + apart)
+    ax.annotate("", (along, 0), (along, height), arrowprops=arrow)
+    at = along + side * GAP * scale, height / 2
+    ax.annotate(millimetres(height), at, ha=aligned, va="center", rotation=90, **small)
     ax.annotate("", (-half, below), (half, below), arrowprops=arrow)
     ax.annotate(millimetres(block.width), (0, below - GAP * scale), ha="center", va="top", **small)

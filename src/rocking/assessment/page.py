@@ -207,7 +207,7 @@ def of_block(each: Assessment, name: str) -> list[str]:
     )
 
 
-NO_RULES = "The design rules take symmetric blocks only."
+NO_RULES = "The design rules take free-standing, symmetric blocks only."
 
 RULES = (
     "FEMA 356 and Priestley replace the block by a linear oscillator; their error is not bounded. “no result”: the loop does not "

@@ -19,6 +19,10 @@ from rocking.model.text import counted, percent, percent_with_ends
 NO_FRICTION = (
     "The fragility, the overturning levels, the sensitivity and the annual rate do not consider friction."
 )
+AGAINST_A_WALL = (
+    "It stands against a wall on the side θ < 0: an impact there reverses the angular velocity and multiplies it by e_w. Friction at the "
+    "wall is neglected."
+)
 SPREADS = ("height", "width", "restitution")
 DIRECTIONS = {
     "+": "The records act in the direction in which they were recorded, and not in the opposite one.",
@@ -85,7 +89,8 @@ def friction_sentence(each: Assessment) -> str:
         return "The friction that the motions need was not assessed."
     missing = data.friction.size - known.size
     but = f" ({missing} of {data.friction.size} not assessed)" * bool(missing)
-    needed = f"The motions {each.level_text} need a coefficient of friction up to {number(float(known.max()))}{but}"
+    wall = ", apart from the impacts against the wall" * (each.block.wall is not None)
+    needed = f"The motions {each.level_text} need a coefficient of friction up to {number(float(known.max()))}{wall}{but}"
     available = data.attrs["friction_available"]
     if available is None:
         return f"{needed}; none is stated, so that sliding is not judged."
@@ -148,9 +153,10 @@ def methods(each: Assessment) -> Iterator[str]:
 
 
 def of_the_block(each: Assessment, name: str) -> str:
-    """Return the sentence on the digest of a block, and on the direction of the records."""
+    """Return the sentences on the digest of a block, its wall, and the direction of the records."""
     attributes = each.dataset.attrs
+    wall = f" {AGAINST_A_WALL}" * (each.block.wall is not None)
     return (
-        f"{name}: SHA-256 of sizes, inertia and restitution {attributes['block_sha256']}. "
+        f"{name}: SHA-256 of sizes, inertia and restitution {attributes['block_sha256']}.{wall} "
         f"{DIRECTIONS[attributes['polarity']]}"
     )

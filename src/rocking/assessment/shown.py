@@ -130,22 +130,22 @@ def symbol_of(each: Assessment, name: str = "") -> str:
 
 def block_table(block: Block) -> Shown:
     """Return the properties of a block."""
-    both = partial(_both, block.left is not None and block.wall is None)
+    both = partial(_both, block.is_unsymmetric)
     degrees = [f"{math.degrees(angle):.2f}°" for angle in block.critical_angles]
     lift = [f"{math.tan(angle):.3f} g" for angle in block.critical_angles]
-    e = block.restitution, block.left_restitution
+    e = both([f"{each:.4g}" for each in (block.restitution, block.left_restitution)])
+    restitution = (
+        ("restitution e", f"{e}, {block.law}") if block.wall is None else ("restitution e_w of the wall", e)
+    )
     offset = f", offset {millimetres(block.offset)}" if block.offset else ""
     rows = [
         ("height × width", f"{millimetres(block.height)} × {millimetres(block.width)}"),
         ("mass centre", f"{millimetres(block.centre_height)} above the base{offset}"),
         ("distance R of a corner from it", both([f"{radius:.4g} m" for radius in block.radii])),
         ("critical angle θcr", both(degrees)),
-        ("lift-off from rest above", both(lift)),
+        ("lift-off from rest above", both(lift) + ", away from the wall" * (block.wall is not None)),
         ("frequency parameter p", both([f"{each:.4g} 1/s" for each in block.frequency_parameters])),
-        (
-            "restitution e" if block.wall is None else "restitution e_w of the wall",
-            f"{both([f'{each:.4g}' for each in e])}, {block.law}",
-        ),
+        restitution,
         ("Io/(MR²)", f"{block.inertia_ratio:.4g}"),
     ]
     if block.left is None:
@@ -211,6 +211,8 @@ def record_table(each: Assessment) -> Shown:
         "had beyond what it needed (+) to overturn, where it was closest. Where a block overturns with a negative margin, the closest "
         "decision was an earlier one. Friction: least coefficient without sliding."
     )
+    if block.wall is not None:
+        caption += " The impacts against the wall are left out of the friction."
     if bool(data.slides.any()):
         caption += (
             " “slides (…)”: the block slides before it moves as computed, so that there is no verdict; in the parentheses, and in the "

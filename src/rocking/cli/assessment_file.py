@@ -13,13 +13,14 @@ import numpy as np
 from attrs import Factory, define, frozen
 
 from rocking.assessment.assess import checked_friction, checked_period, checked_years, with_level
-from rocking.cli.options import NUMBER, VALUES, Axis, InvalidInput
+from rocking.cli.options import NUMBER, RESTRAINER, VALUES, Axis, InvalidInput
 from rocking.cli.record_requests import drift_warnings
 from rocking.cli.requests import values_of
 from rocking.cli.study import text_of
 from rocking.model.block import Block
 from rocking.model.record_set import INTENSITIES, RecordSet
 from rocking.model.restitution import Restitution
+from rocking.model.system import Wall
 from rocking.model.text import formatted_path
 from rocking.model.validation import Refusal, Text, instance, refusal, similar
 from rocking.records.record_set import read_record_set
@@ -29,7 +30,9 @@ from rocking.survey.overturning_rate import hazard_curve
 LENGTHS = ("height", "width", "offset", "centre_height", "radius_of_gyration")
 UNITS = {"m": 1.0, "cm": 1e2, "mm": 1e3}
 """Lengths in a metre, by the end of a key."""
-PLAIN = ("restitution", "restitution_factor", "inertia_ratio", "friction")
+IMPACT = ("restitution", "restitution_factor", "wall")
+"""Keys of the restitution, of which a block has at most one."""
+PLAIN = (*IMPACT, "inertia_ratio", "friction")
 ENDS = {"m/s²": "_m_per_s2", "m/s": "_m_per_s", "m": "_m", "1": "", "g": ""}
 """Ends of the keys of levels, by their unit; the name of a measure in g ends with it."""
 MEASURES = {
@@ -42,6 +45,7 @@ SECTIONS = ("block", "records", "levels", "uncertain", "hazard")
 OF_HAZARD = ("file", "levels", "rates_per_year", "years")
 ADVICE = re.compile(r"(?:--)?\b(baseline|component)='(\w+)'")
 """Argument in a message of the reader, which is a key of [records]."""
+NO_RESTRAINER = "an assessment needs the base reactions of a free block"
 EXAMPLE = 'pga_g = "0.1:1.2:23"'
 
 
@@ -248,7 +252,10 @@ def blocks_of(entries: Mapping[str, Any], errors: Errors) -> Iterator[NamedBlock
 def block_of(table: Mapping[str, Any], errors: Errors, where: str) -> Block | None:
     """Return the block of a section; None after an error."""
     keys = {base: [f"{base}_{unit}" for unit in UNITS] for base in LENGTHS}
-    errors.unknown(table, ("name", *(key for each in keys.values() for key in each), *PLAIN), where)
+    for key in [key for key in RESTRAINER if key in table][:1]:
+        errors.sentences.append(f"{key}{where} must be omitted: {NO_RESTRAINER}")
+    free = {key: value for key, value in table.items() if key not in RESTRAINER}
+    errors.unknown(free, ("name", *(key for each in keys.values() for key in each), *PLAIN), where)
     values: dict[str, Any] = {}
     typed: dict[str, str] = {}
     shown: dict[str, str] = {}
@@ -276,10 +283,14 @@ def block_of(table: Mapping[str, Any], errors: Errors, where: str) -> Block | No
     with errors.collected({"friction": f"friction{where}"}):
         if "friction" in values:
             checked_friction(values.pop("friction"))
-    factor = values.pop("restitution_factor", None)
-    if factor is not None and "restitution" in values:
-        errors.sentences.append(f"give restitution or restitution_factor{where}, not both")
+    given = [key for key in IMPACT if key in values]
+    if len(given) > 1:
+        errors.sentences.append(f"give {given[0]} or {given[1]}{where}, not both")
         return None
+    factor = values.pop("restitution_factor", None)
+    with errors.collected({"restitution": f"wall{where}"}):
+        if "wall" in values:
+            values["wall"] = Wall(values.pop("wall"))
     with errors.collected({**typed, "factor": typed.get("restitution_factor", "")}):
         if factor is not None:
             values["restitution"] = Restitution.housner(factor)

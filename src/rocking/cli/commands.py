@@ -195,6 +195,13 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
             make(
                 "second", RecordFile(), "FILE", "File of the other horizontal component, for --azimuth-deg."
             ),
+            make(
+                "vertical",
+                RecordFile(),
+                "FILE",
+                "File of the vertical component, positive upwards, with the step of the record. It is scaled as the record is, and both "
+                "end with the shorter one.",
+            ),
             number(
                 "floor_period",
                 "Period of a floor, s: the block stands on a linear oscillator on this ground.",
@@ -757,8 +764,8 @@ rocking sensitivity example --height 2 --width 0.5 --pga-g 0.5:1.5:30 \\
         ),
         details="Writes FILE as .html, which prints on A4, its tables as .csv and, with the extra `excel`, as .xlsx. FILE has the "
         "sections [block], [records] and [levels], and may have [hazard] and [uncertain]. The names of its keys state the units. "
-        "The records act as recorded; on a block with unequal sides they act in both directions, of which the worse one counts. "
-        "The key polarity chooses. The default of --polarity in the other commands is + for any block.",
+        "The records act as recorded; on a block with unequal sides, or against a wall, they act in both directions, of which the worse "
+        "one counts. The key polarity chooses. The default of --polarity in the other commands is + for any block.",
         examples="""
 # The example, and its file to copy.
 rocking assess example --output cabinet

@@ -69,6 +69,7 @@ def refusals(names: Mapping[str, str] | None = None) -> Iterator[None]:
 def message(error: Exception, names: Mapping[str, str]) -> str:
     """Return the message of an error with the names of options and the words of the command line."""
     from rocking.model.validation import Refusal
+    from rocking.survey.store_access import StoreError
 
     if isinstance(error, Refusal):
         context = click.get_current_context()
@@ -77,14 +78,15 @@ def message(error: Exception, names: Mapping[str, str]) -> str:
             if context.params.get(law) is not None:
                 own["restitution"] = option(law)
         error = error.of(own | {"braces": option("brace_angle")} | dict(names))
-    return reworded(str(error))
+    own_name = isinstance(error, StoreError) and error.argument
+    return f"--{reworded(str(error))}" if own_name else reworded(str(error))
 
 
 def reworded(text: str) -> str:
     """Return a text of the package in the words of the command line."""
     for python, typed in WORDS.items():
         text = text.replace(python, typed)
-    return f"--{text}" if text.startswith("store must be") else text
+    return text
 
 
 WORDS = {

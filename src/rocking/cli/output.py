@@ -36,6 +36,7 @@ INPUT_FILES = {
     "study": "the study file",
     "file": "the record",
     "second": "the record of --second",
+    "vertical": "the record of --vertical",
     "sources": "a record",
     "times": "the file of times",
     "hazard": "the table of the hazard",

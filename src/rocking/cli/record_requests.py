@@ -90,16 +90,18 @@ def record(options: Options) -> Request:
     block, braces, start = block_in_si(options), braces_of(options), start_of(options)
     check_friction(options)
     ground, sentences = ground_motion(options)
-    with refusals(NAMES):
+    ground, vertical = with_vertical(ground, options, sentences)
+    with refusals({**NAMES, "vertical": "the record of --vertical"}):
         grounds = [ground if sign > 0 else ground.reversed() for sign in directions(options)]
-        how = select(options, "model", "normalised_by")
+        how = {**select(options, "model", "normalised_by"), "vertical": vertical}
         systems = [block.system(each, braces=braces, **how) for each in grounds]
         place = worse(systems, start)
     system, ground = systems[place], grounds[place]
     counted = ("+", "-")[place] if len(grounds) > 1 else ""
     files = tuple(name for name in ("plot", "animate", "csv", "netcdf", "friction") if name in options)
     arguments = {"system": system, "start": start, "cycles": None, "files": files}
-    return Request(arguments, options, system.block, NAMES, sentences, records=ground, counted=counted)
+    motions = {"records": ground, "vertical": vertical}
+    return Request(arguments, options, system.block, NAMES, sentences, **motions, counted=counted)
 
 
 def sliding(options: Options) -> Request:
@@ -150,10 +152,7 @@ def ground_motion(options: Options) -> tuple[GroundMotion, list[str]]:
             refuse_vertical(ground, options)
             other = other_component(options)
             if other.step == ground.step and other.times.size != ground.times.size:
-                shorter = min(ground.duration, other.duration)
-                samples = f"{ground.times.size:,} and {other.times.size:,} samples"
-                sentences.append(f"the two components have {samples}: both end at {shorter:g} s")
-                ground, other = ground.clipped(end=shorter), other.clipped(end=shorter)
+                ground, other = same_end(ground, other, sentences)
             elif other.step != ground.step:
                 steps = f"{ground.step:g} s and {other.step:g} s"
                 raise InvalidInput(
@@ -176,6 +175,44 @@ def ground_motion(options: Options) -> tuple[GroundMotion, list[str]]:
             ground = ground.floor(options["floor_period"], **damping)
     vertical = vertical_sentence([ground.component]) if ground.vertical else ""
     return ground, [*sentences, *filter(None, (vertical, as_options(ground.drift_doubt)))]
+
+
+def with_vertical(
+    ground: GroundMotion, options: Options, sentences: list[str]
+) -> tuple[GroundMotion, GroundMotion | None]:
+    """Return the horizontal ground motion, and the vertical one of the options, times the same factor; None without the option.
+
+    Both end with the shorter one, which a sentence then states. InvalidInput if the file has not one vertical channel, or one
+    channel only.
+    """
+    if "vertical" not in options:
+        return ground, None
+    if "floor_period" in options:
+        raise InvalidInput("give --vertical or --floor-period, not both: a floor moves horizontally")
+    from rocking.records.read import read_ground_motions
+
+    with reading({**NAMES, "source": "--vertical"}) as more:
+        motions = read_ground_motions(options["vertical"], **select(options, *READING))
+    sentences += [each for each in more if each not in sentences]
+    found = [each for each in motions if each.vertical or len(motions) == 1]
+    if len(found) != 1:
+        raise InvalidInput(
+            f"--vertical needs a file with one vertical channel, or with one channel; got {len(found)} of {len(motions)} channels"
+        )
+    up = found[0].scaled(ground.factor)
+    if up.step == ground.step and up.times.size != ground.times.size:
+        return same_end(ground, up, sentences)
+    return ground, up
+
+
+def same_end(
+    ground: GroundMotion, other: GroundMotion, sentences: list[str]
+) -> tuple[GroundMotion, GroundMotion]:
+    """Return two components that end with the shorter one, and add a sentence on this."""
+    shorter = min(ground.duration, other.duration)
+    samples = f"{ground.times.size:,} and {other.times.size:,} samples"
+    sentences.append(f"the two components have {samples}: both end at {shorter:g} s")
+    return ground.clipped(end=shorter), other.clipped(end=shorter)
 
 
 def check_direction(options: Options) -> None:

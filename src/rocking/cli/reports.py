@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.cli.output import WARNING, Row
-from rocking.model.block import Block
+from rocking.model.block import Block, unit_for
 from rocking.model.block_formulas import GRAVITY, with_unit
 from rocking.model.forcing import Pulse
 from rocking.model.quantity import IN_SI
@@ -40,14 +40,13 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
     restitution, braces = system.restitution, system.braces
     if block is not None:
         yield "", "normalised", "in SI"
-        if block.restrainer is None:
-            yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
-        else:
-            yield "unstable balance", "1", f"{block.degrees(1.0):.4g}°"
+        name = "unstable balance" if block.by_balance else "critical angle"
+        yield name, "1", f"{block.degrees(1.0):.4g}°"
+        if block.restrainer is not None:
             yield "restrainer", f"κ = {block.stiffness_ratio:.6g}, ρ = {block.prestress_ratio:.6g}", ""
         yield time_unit(block), "1", f"{block.seconds(1.0):.4g} s"
         unit = ", a/(g tan θcr)" if block.normalised_by == "tangent" else ""
-        unit = unit if block.restrainer is None else unit.replace("(g", "((1 + ρ) g")
+        unit = unit.replace("(g", "((1 + ρ) g") if block.by_balance else unit
         slender = system.critical_angle is None
         yield "equation of motion", f"small angles{unit}" if slender else "full", ""
         if block.left is not None:
@@ -69,7 +68,7 @@ def system_rows(system: System, block: Block | None) -> Iterator[Row]:
 
 def angle_symbol(block: Block) -> str:
     """Return the unit of the normalised angles of a block in words."""
-    return "θcr" if block.restrainer is None else "of the angle of unstable balance"
+    return "of the angle of unstable balance" if block.by_balance else "θcr"
 
 
 def left_text(left: Side | None) -> str:
@@ -156,10 +155,10 @@ def state_in_si(state: Any, block: Block) -> str:
 
 def time_unit(block: Block) -> str:
     """Return the name of the unit of time of a block."""
-    return "time unit 1/α" if block.restrainer is None else "time unit"
+    return "time unit" if block.by_balance else "time unit 1/α"
 
 
-SMALL_ANGLES = "small angles, with the restrainer"
+SMALL_ANGLES, FULL = "small angles, with the restrainer", "full, with the restrainer"
 
 
 def equation(
@@ -185,14 +184,16 @@ def equation(
 def equation_line(block: Block, attributes: Mapping[str, Any]) -> str:
     """Return the equation of motion of a survey of one block, as a line below a table with a row per record."""
     if block.restrainer is not None:
-        return f"equation of motion: {SMALL_ANGLES}"
+        restrained = SMALL_ANGLES if attributes["model"] == "slender" else FULL
+        return f"equation of motion: {restrained}"
     full, by = attributes["model"] == "full", attributes.get("normalised_by", "angle")
     return f"equation of motion: {equation(*block.critical_angles, full=full, normalised_by=by)}"
 
 
 def survey_warnings(block: Block, attributes: Mapping[str, Any]) -> list[str]:
     """Return the warnings about the block of a survey of ground motions with these attributes."""
-    block = with_unit(block, attributes.get("normalised_by", "angle"))
+    by = unit_for(block, attributes.get("normalised_by", "angle"), attributes["model"])
+    block = with_unit(block, by)
     return block_warnings(block, (), block.restitution, full=attributes["model"] == "full")
 
 

@@ -13,10 +13,10 @@ import numpy as np
 from rocking.cli.options import InvalidInput, option
 from rocking.cli.output import Report, Row, Text
 from rocking.cli.reports import (
+    FULL,
     SMALL_ANGLES,
     angle_symbol,
     angle_warning,
-    block_warnings,
     equation,
     in_si,
     input_rows,
@@ -33,6 +33,7 @@ from rocking.model.system import State, System
 from rocking.model.tables_and_json import headed
 from rocking.model.text import counted, ordinal
 from rocking.model.verdict import Outcome, Verdict
+from rocking.motion.model_warnings import restrained_warnings
 from rocking.motion.motion import has_cycles, margin_speed
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def run(system: System, start: State, cycles: int | None, files: tuple[str, ...]
     Events are dropped for too many cycles, and for too many events if no file needs them. A base motion of finite length
     has no cycles: None.
     """
-    from rocking.model.validation import TooManyEvents
+    from rocking.model.validation import ContactLost, TooManyEvents
     from rocking.motion.simulate import simulate
 
     if cycles is not None and not cycles <= MAX_CYCLES_KEPT:
@@ -66,6 +67,8 @@ def run(system: System, start: State, cycles: int | None, files: tuple[str, ...]
         cycles = counted.cycles  # the block overturned early
     try:
         return simulate(system, start, cycles=cycles)
+    except ContactLost as error:
+        raise InvalidInput(str(error)) from error
     except TooManyEvents as error:
         if files:
             names = ", ".join(map(option, files))
@@ -223,9 +226,7 @@ def unassessed(motion: Motion) -> list[str]:
     block = motion.system.block
     if block is None or block.restrainer is None:
         return [unchecked(motion)]
-    reached = float(block.radians(min(motion.peak, 1.0)))
-    own = block_warnings(block, (), motion.system.restitution, angle=reached)
-    return ["sliding and jumping of a restrained block are not checked", *own]
+    return [*restrained_warnings(block, motion.peak, motion.system.restitution)]
 
 
 def unchecked(motion: Motion) -> str:
@@ -283,7 +284,12 @@ def record_text(motion: Motion, request: Request) -> Text:
     """Return the summary, with the warnings of the reader."""
     block, ground = block_of(request), request.records
     friction = request.options.get("friction")
-    rows = [*of_ground(ground), *of_direction(request), *of_block(motion, block)]
+    rows = [
+        *of_ground(ground),
+        *of_vertical(request.vertical),
+        *of_direction(request),
+        *of_block(motion, block),
+    ]
     rows += record_rows(motion, block, friction)
     lines = warning_lines([*request.warnings, *undecided(motion)])
     lines += [*angle_warning(motion.start.angle, block), *validity_warnings(motion, block, friction)]
@@ -338,9 +344,7 @@ def of_ground(ground: GroundMotion) -> Iterator[Row]:
     """Yield the rows of the ground motion."""
     yield "motion", named(ground)
     file = ground.file
-    if file is not None:
-        parts = (file.name, file.format, file.channel, f"SHA-256 {file.sha256[:DIGITS_OF_DIGEST]}…")
-        yield "file", ", ".join(filter(None, parts))
+    yield from of_file(ground)
     count = ground.acceleration.size
     yield "samples", f"{count}, step {ground.step:g} s, {ground.duration:.6g} s"
     treated = "as in the file" if ground.baseline == "none" else f"{ground.baseline} removed"
@@ -361,6 +365,23 @@ def of_ground(ground: GroundMotion) -> Iterator[Row]:
     yield "bracketed duration", f"{ground.bracketed_duration():.4g} s, above 0.05 g"
 
 
+def of_file(ground: GroundMotion) -> Iterator[Row]:
+    """Yield the row of the file of a ground motion, if it is read from one."""
+    if (file := ground.file) is not None:
+        parts = (file.name, file.format, file.channel, f"SHA-256 {file.sha256[:DIGITS_OF_DIGEST]}…")
+        yield "file", ", ".join(filter(None, parts))
+
+
+def of_vertical(vertical: GroundMotion | None) -> Iterator[Row]:
+    """Yield the rows of the vertical component, if there is one."""
+    if vertical is None:
+        return
+    yield "vertical motion", named(vertical)
+    yield from of_file(vertical)
+    upwards = vertical.acceleration / GRAVITY
+    yield "accelerates", f"from {upwards.min():.4g} to {upwards.max():.4g} g, positive upwards"
+
+
 def of_direction(request: Request) -> Iterator[Row]:
     """Yield the row of the direction that counts, where both were followed."""
     if request.counted:
@@ -372,7 +393,7 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     """Yield the rows of the block and its initial state."""
     yield "block", f"{block.size}, Io/(MR²) = {block.inertia_ratio:.4g}"
     angles = [f"{math.degrees(angle):.4g}°" for angle in block.critical_angles]
-    both = block.left is not None and block.wall is None
+    both = block.is_unsymmetric
     sides = f" for θ > 0, {angles[1]} for θ < 0" if both else ""
     yield "critical angle", f"{angles[0]}{sides}"
     full = motion.system.critical_angle is not None
@@ -384,11 +405,12 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
             equation(*block.critical_angles, full=full, braced=braced, normalised_by=by),
         )
     else:
-        yield "equation of motion", SMALL_ANGLES
-        balance = f"unstable balance at {float(block.degrees(1.0)):.4g}°"
-        yield "restrainer", f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}, {balance}"
+        yield "equation of motion", FULL if full else SMALL_ANGLES
+        balance = f", unstable balance at {float(block.degrees(1.0)):.4g}°" if block.by_balance else ""
+        yield "restrainer", f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}{balance}"
     yield time_unit(block), f"{block.seconds(1.0):.4g} s"
-    yield "lift-off from rest", lift_off_text(motion.system, block)
+    weight = "" if motion.system.vertical is None else ", times the weight 1 + a_v"
+    yield "lift-off from rest", lift_off_text(motion.system, block) + weight
     left = f" for θ > 0, {block.left_restitution:.6g} for θ < 0" if both else ""
     if block.wall is None:
         yield "restitution", f"e = {block.restitution:.6g}{left}, {origin(block)}"
@@ -416,7 +438,7 @@ def record_rows(motion: Motion, block: Block, friction: float | None) -> Iterato
     """Yield the rows of the result."""
     yield "impacts", counted_impacts(motion)
     if motion.overturning is None:
-        side = "" if block.left is None or block.wall else " of θ > 0"
+        side = " of θ > 0" if block.is_unsymmetric else ""
         unit = angle_symbol(block)
         yield "largest |θ|", f"{reach(motion.peak, block)}, {motion.peak:.4g} {unit}{side}"
     yield margin_name(motion), margin_text(motion, block)
@@ -461,8 +483,10 @@ def record_more(motion: Motion, request: Request) -> dict[str, Any]:
     """Return the ground motion, the validity report and the warnings as JSON objects."""
     warnings = [*request.warnings, *undecided(motion)]
     direction = {"worse_direction": request.counted} if request.counted else {}
-    facts_of_ground = facts(request.records) | direction
-    return {"ground_motion": facts_of_ground, **motion_validity(motion, request), "warnings": warnings}
+    own = {"ground_motion": facts(request.records) | direction}
+    if request.vertical is not None:
+        own["vertical_motion"] = facts(request.vertical)
+    return {**own, **motion_validity(motion, request), "warnings": warnings}
 
 
 def facts(ground: GroundMotion) -> dict[str, Any]:

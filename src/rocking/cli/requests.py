@@ -30,7 +30,7 @@ from rocking.cli.options import (
     refusals,
 )
 from rocking.model.block import Block
-from rocking.model.block_formulas import acceleration_unit_g, with_unit
+from rocking.model.block_formulas import with_unit
 from rocking.model.forcing import Harmonic, Pulse
 from rocking.model.quantity import FRICTION, SYSTEM_QUANTITIES
 from rocking.model.restitution import Restitution
@@ -54,6 +54,7 @@ LAWS = ("restitution_factor", "restitution_table", "restitution_scatter")
 OTHER = {
     *LAWS,
     *SYSTEM,
+    *RESTRAINER,
     *START,
     *OUTPUTS,
     "model",
@@ -89,6 +90,8 @@ class Request:
     varied: str = ""
     """Option with an axis or a range, as typed."""
     records: Any = None
+    vertical: Any = None
+    """Vertical component of a record."""
     hazard: Any = None
     """Hazard of the site of a fragility, a `HazardCurve`."""
     counted: str = ""
@@ -158,9 +161,10 @@ def system_of(options: Options) -> tuple[System, Block | None]:
             )
             base = select(options, *SI[2:], "phase")
             by = {} if "pulse" in options else select(options, "normalised_by")
-            system = block.system(**base, braces=braces, model=model_of(options), **by)
+            free = evolve(block, restrainer=None) if "pulse" in options else block
+            system = free.system(**base, braces=braces, model=model_of(options), **by)
         if "pulse" in options:
-            system = pulsed(system, options)
+            system = pulsed(system, options, block)
         return system, system.block
 
 
@@ -176,10 +180,13 @@ def select(options: Options, *names: str) -> dict[str, Any]:
 
 def restitution_of(options: Options) -> float | Restitution | None:
     """Return the restitution of a block of the options; InvalidInput if invalid."""
-    given = [name for name in ("restitution", *LAWS[:2]) if name in options]
-    if len(given) > 1:
-        raise InvalidInput(f"give {option(given[0])} or {option(given[1])}, not both")
-    if not given and "restitution_scatter" not in options:
+    given = [name for name in ("restitution", *LAWS) if name in options]
+    alone = [name for name in given if name != "restitution_scatter"]
+    if "wall" in options:
+        alone = [*given, "wall"]
+    if len(alone) > 1:
+        raise InvalidInput(f"give {option(alone[0])} or {option(alone[1])}, not both")
+    if not given:
         return None
     names = {"rows": "restitution_table", "factor": "restitution_factor", "value": "restitution"}
     typed = {name: option(each) for name, each in names.items()}
@@ -218,14 +225,19 @@ def fit_restitution(options: Options) -> Request:
     )
 
 
-def pulsed(system: System, options: Options) -> System:
-    """Return a system with one pulse of the amplitude and the period of its harmonic base motion."""
+def pulsed(system: System, options: Options, restrained: Block | None) -> System:
+    """Return a system with one pulse of the amplitude and the period of its harmonic base motion; of the ``restrained`` block if it is."""
     for name in ("phase", "displacement"):
         if options.get(name):
             raise InvalidInput(f"{option(name)} belongs to harmonic motion: omit it with --pulse")
     part = 0.5 if options["pulse"] == "half-sine" else 1.0
     wave, block = system.forcing, by_normalisation(system.block, options)
     assert isinstance(wave, Harmonic)
+    if restrained is not None and restrained.restrainer is not None:
+        size, time = restrained.acceleration(wave.amplitude), restrained.seconds(part * wave.period)
+        pulse = Pulse(options["pulse"], amplitude=size, duration=time)
+        by = select(options, "normalised_by")
+        return restrained.system(pulse, braces=system.braces, model=model_of(options), **by)
     amplitude = wave.amplitude * unit_ratio(block)
     forcing = Pulse(options["pulse"], amplitude=amplitude, duration=part * wave.period)
     return evolve(system, forcing=forcing, block=block)
@@ -243,7 +255,7 @@ def unit_ratio(block: Block | None) -> float:
     """Return g θcr in units of the acceleration of a block; 1 for normalised input."""
     if block is None:
         return 1.0
-    return block.critical_angle / acceleration_unit_g(block.critical_angle, block.normalised_by)
+    return block.critical_angle / block.acceleration_unit_g
 
 
 def standing_of(options: Options) -> dict[str, Any]:
@@ -721,4 +733,6 @@ def overturning_spectrum(options: Options) -> Request:
             system = block.system(pulse, **select(options, "model", "normalised_by"))
     if "amplitude" in axes:
         axes["amplitude"] = axes["amplitude"] * unit_ratio(system.block)
+    if "frequency" in axes and system.block is not None:
+        axes["frequency"] = axes["frequency"] * (system.block.frequency_parameter / system.block.rate_unit)
     return evolve(survey_request(options, {"system": system} | axes), block=system.block)

@@ -275,7 +275,7 @@ function theme(name) {
     view?.request_repaint?.();
   }
   const style = getComputedStyle(document.documentElement), colour = name => ({ value: style.getPropertyValue(name) });
-  for (const name of ["line", "accent", "block", "edge"]) inks[name] = style.getPropertyValue(`--${name}`);
+  for (const name of ["line", "accent", "block", "edge", "soft"]) inks[name] = style.getPropertyValue(`--${name}`);
   for (const model of Object.values(models)) model.title.setv({ text_color: colour("--ink").value.trim() }, { sync: false });
   for (const { name, glyph } of Object.values(models).flatMap(model => model.renderers)) {
     if (name === "words") glyph.setv({ text_color: colour("--soft") }, { sync: false });
@@ -335,9 +335,16 @@ function frame() {
   ink.beginPath(); ink.moveTo(-4, 9); ink.lineTo(4, 9); ink.lineTo(0, 2); ink.fill();
   if (film.wall) {
     const thick = 0.06 * tall;
-    ink.strokeStyle = inks.edge;
+    ink.strokeStyle = inks.soft;
     ink.strokeRect(-half - thick, -1.04 * tall, thick, 1.04 * tall);
     for (let at = 0; at > -1.04 * tall; at -= thick) { ink.beginPath(); ink.moveTo(-half - thick, at); ink.lineTo(-half, Math.max(at - thick, -1.04 * tall)); ink.stroke(); }
+  }
+  if (film.restrained) {
+    const pivot = turn > 0 ? half : -half;
+    ink.strokeStyle = inks.soft;
+    ink.lineWidth = 3;
+    ink.beginPath(); ink.moveTo(0, 9); ink.lineTo(pivot * (1 - Math.cos(turn)), -pivot * Math.sin(turn)); ink.stroke();
+    ink.lineWidth = 1;
   }
   ink.translate(turn > 0 ? half : -half, 0);
   ink.rotate(turn);

@@ -53,8 +53,15 @@ for (const field of all("#fields input:not([type]), #fields select")) {
       place(field.value);
       if (field.value === "file" && !shown?.channels.length) return find("file").click();
     }
-    ask("fields", { [field.name]: field.value });
+    ask("fields", typed(field));
   });
+}
+
+// A field as it is typed, with those of the restrained block that were refused before, because these fit only together.
+const TIED = ["model", "stiffness", "prestress", "mass"];
+function typed(field) {
+  const others = TIED.includes(field.name) ? TIED.map(find).filter(each => each.value !== brief(shown.fields[each.name])) : [];
+  return Object.fromEntries([field, ...others].map(each => [each.name, each.value]));
 }
 
 // ---- files stay between this page and the server on the same computer
@@ -156,8 +163,8 @@ function legend(message) {
 // ---- the animation, seen from the base
 
 function scene() {
-  const { time, angle: degrees } = columns("history"), { height, width, critical, centre, wall } = shown.block;
-  shoot(Array.from(degrees, value => value * Math.PI / 180 / critical), critical, height, { time, width, centre, wall, moves: 1, displacement: () => 0, speed: 1 });
+  const { time, angle: degrees } = columns("history"), { height, width, critical, centre, wall, restrained } = shown.block;
+  shoot(Array.from(degrees, value => value * Math.PI / 180 / critical), critical, height, { time, width, centre, wall, restrained, moves: 1, displacement: () => 0, speed: 1 });
   clock = Math.min(clock, time[time.length - 1] ?? 0);
   find("scale-note").textContent = film.angles > 1.05 ? `angle × ${film.angles.toPrecision(2)}` : "true to scale";
   frame();

@@ -12,6 +12,7 @@ from rocking.explorer.ground_view import Ground, GroundView, thinned
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY, with_unit
 from rocking.model.verdict import Outcome
+from rocking.motion.model_warnings import restrained_warnings
 from rocking.motion.motion import Motion, end_shown, margin_speed
 from rocking.motion.simulate import simulate
 from rocking.motion.validity import compared, degrees_and_share
@@ -37,7 +38,7 @@ def block_motion(view: GroundView, ground: Ground) -> tuple[Contents, dict[str, 
     fullest = max(float(np.abs(degrees).max()), 0.2 * block.degrees(1.0))
     words = _words(motion, block)
     return _figures(view, ground, times, degrees, fullest), words | {
-        "sentence": f"{SENTENCES[words['kind']]}{factor_in_words(view)}{SYMMETRIC[block.wall is not None] if block.left else ''}"
+        "sentence": f"{SENTENCES[words['kind']]}{factor_in_words(view)}{map_in_words(block)}"
     }
 
 
@@ -51,16 +52,18 @@ def no_motion(view: GroundView, ground: Ground, reason: str) -> tuple[Contents, 
 def _figures(
     view: GroundView, ground: Ground, times: np.ndarray, degrees: np.ndarray, fullest: float
 ) -> Contents:
-    """Return both figures for the same times, with free borders, and with lines at both critical angles."""
+    """Return both figures for the same times, with free borders, and with lines at both critical angles, or unstable balances.
+
+    A block against a wall has no angles below 0.
+    """
     line, critical = ground.line(view.scale), view.block.degrees(1.0)
     end = float(max([*times[-1:], line["time"][-1]]))
     angle = fullest * (1 + 2 * OVER)
+    least = -angle if view.block.wall is None else -2 * OVER * fullest
     largest = max(float(np.abs(line["acceleration"]).max()), 1e-6) * (1 + 5 * OVER)
-    history: dict[str, Any] = {"ranges": [0.0, end, -angle, angle], "line": {"time": times, "angle": degrees}}
-    history |= {
-        "above": critical,
-        "below": 0.0 if view.block.wall else -math.degrees(view.block.critical_angles[1]),
-    }
+    history: dict[str, Any] = {"ranges": [0.0, end, least, angle], "line": {"time": times, "angle": degrees}}
+    left = -math.degrees(view.block.critical_angles[1]) if view.block.is_unsymmetric else -critical
+    history |= {"above": critical, "below": 0.0 if view.block.wall else left}
     return {"history": history, "base": {"ranges": [0.0, end, -largest, largest], "line": line}}
 
 
@@ -108,11 +111,12 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
 
 def _sides(block: Block) -> Facts:
     """Return R, θcr and e, of both sides of an unsymmetric block."""
-    if block.left is None or block.wall is not None:
+    if not block.is_unsymmetric:
         return [
             ("R", f"{block.radius:.4g} m"),
-            ("θcr", f"{block.degrees(1.0):.4g}°"),
+            ("θcr", f"{math.degrees(block.critical_angle):.4g}°"),
             ("e", f"{block.restitution:.4g} ({'Housner' if block.wall is None else 'wall'})"),
+            *_restrainer(block),
         ]
     angles, radii, kept = block.critical_angles, block.radii, (block.restitution, block.left_restitution)
     return [
@@ -123,13 +127,27 @@ def _sides(block: Block) -> Facts:
     ]
 
 
+def _restrainer(block: Block) -> Facts:
+    """Return the ratios of a restrained block and its unstable balance; nothing of a free one."""
+    if block.restrainer is None:
+        return []
+    ratios = f"κ = {block.stiffness_ratio:.4g}, ρ = {block.prestress_ratio:.4g}"
+    balance = [("unstable balance θu", f"{block.degrees(1.0):.4g}°")] if block.by_balance else []
+    return [("restrainer", ratios), *balance]
+
+
 SENTENCES = {
     "stands still": "The base motion does not lift the block.",
     "rocks and stands": "The block rocks, and does not fall over.",
     "overturns": "The block falls over.",
 }
 """What an outcome means for the block."""
-SYMMETRIC = " The blocks of the map have no offset.", " The blocks of the map have no wall."
+
+
+def map_in_words(block: Block) -> str:
+    """Return a sentence on what the blocks of the map lack that this one has; empty if it is like them."""
+    lacks = {"wall": block.wall, "restrainer": block.restrainer, "offset": block.left}
+    return next((f" The blocks of the map have no {name}." for name, own in lacks.items() if own), "")
 
 
 def factor_in_words(view: GroundView) -> str:
@@ -161,8 +179,9 @@ def margin_in_words(motion: Motion, block: Block) -> str:
     if math.isnan(motion.margin):
         return "The block never lifts off."
     size, time = abs(motion.margin), block.seconds(motion.margin_time)
-    side = " of its side" if block.left is not None and block.wall is None else ""
-    speed = f"{size:.3g} α θcr{side} = {math.degrees(abs(margin_speed(motion, block))):.3g} °/s"
+    side = " of its side" if block.is_unsymmetric else ""
+    unit = "" if block.by_balance else f"{size:.3g} α θcr{side} = "
+    speed = f"{unit}{math.degrees(abs(margin_speed(motion, block))):.3g} °/s"
     if motion.margin >= 0.0:
         return f"Closest decision at t = {time:.4g} s: the block was faster than it had to be to overturn, by {speed}."
     if motion.outcome == Outcome.OVERTURNED:
@@ -172,6 +191,10 @@ def margin_in_words(motion: Motion, block: Block) -> str:
 
 def _validity(motion: Motion, block: Block) -> list[str]:
     """Return the required friction, the error of the slender-block model and the warnings, as sentences."""
+    if block.restrainer is not None:
+        return [
+            _sentence(each) for each in restrained_warnings(block, motion.peak, motion.system.restitution)
+        ]
     validity = motion.validity(block)
     friction = []
     if validity.friction is not None and math.isfinite(validity.friction):
@@ -183,4 +206,8 @@ def _validity(motion: Motion, block: Block) -> list[str]:
         errors = [
             f"The slender-block model overestimates the restoring moment by up to {validity.moment_error:.1%}."
         ]
-    return [*friction, *errors, *(f"{each[0].upper()}{each[1:]}." for each in validity.warnings)]
+    return [*friction, *errors, *map(_sentence, validity.warnings)]
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."

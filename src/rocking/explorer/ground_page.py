@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -136,7 +137,7 @@ class GroundSession(Session):
             self.ground = ground_of(self.view, self.channels)
         self._place_map(self.view)
         block = self.view.block
-        self.link.draw(map={"point": {"x": [block.radius], "y": [block.degrees(1.0)]}})
+        self.link.draw(map={"point": {"x": [block.radius], "y": [math.degrees(block.critical_angle)]}})
 
     def _place_map(self, view: GroundView) -> None:
         for range_, span in ((self.map.x_range, view.sizes), (self.map.y_range, view.angles)):
@@ -157,6 +158,7 @@ class GroundSession(Session):
                 "critical": view.block.critical_angle,
                 "centre": [view.offset, view.block.centre_height] if view.offset else None,
                 "wall": view.wall is not None,
+                "restrained": view.restrainer is not None,
             },
         }
 
@@ -209,7 +211,9 @@ class GroundSession(Session):
 
     JOBS = (
         Job("map", refine_map, (*SHAKEN, "sizes", "angles"), ("map",)),
-        Job("motion", draw_motion, (*SHAKEN, "height", "width", "offset", "wall"), ("verdict",)),
+        Job(
+            "motion", draw_motion, (*SHAKEN, "height", "width", "offset", "wall", "restrainer"), ("verdict",)
+        ),
     )
 
 

@@ -10,14 +10,15 @@ from typing import Any, ClassVar
 import numpy as np
 from attrs import define, evolve, field, frozen
 
-from rocking.explorer.fields import Span, View, axis, count, entry, number, optional, word, written
+from rocking.explorer.fields import Refused, Span, View, axis, count, entry, number, optional, word, written
 from rocking.explorer.ground_maps import POINTS
 from rocking.model import quantity as quantities
-from rocking.model.block import Block
-from rocking.model.block_formulas import GRAVITY, NORMALISATIONS
+from rocking.model.block import Block, unit_for
+from rocking.model.block_formulas import GRAVITY, NORMALISATIONS, with_unit
 from rocking.model.changed_motion import STEPS
 from rocking.model.forcing import KINDS, Pulse
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
+from rocking.model.restrainer import LARGEST, MASSES, Restrainer
 from rocking.model.system import MODELS, Wall, critical_angle_for
 from rocking.model.validation import Refusal
 from rocking.records.read import example_ground_motion, read_apart
@@ -79,6 +80,8 @@ class GroundView(View):
         Block, and the distance of its mass centre from the middle of the base towards the edge of θ > 0, in m.
     wall : float or None
         Coefficient of restitution of the wall against which the block stands; None without a wall.
+    stiffness, prestress, mass : float or None
+        Stiffness of the restrainer in N/m, its force in the block at rest in N, and the mass of the block in kg; None without it.
     model : str
         Equation of motion: "slender" or "full".
     normalised_by : str
@@ -103,6 +106,9 @@ class GroundView(View):
     width: float = entry(0.5, number(*quantities.SIZES))
     offset: float = entry(0.0, number(-quantities.SIZES[1], quantities.SIZES[1]))
     wall: float | None = entry(None, optional(number(0.0, 1.0)))
+    stiffness: float | None = entry(None, optional(number(0.0, LARGEST)))
+    prestress: float | None = entry(None, optional(number(0.0, LARGEST)))
+    mass: float | None = entry(None, optional(number(*MASSES)))
     model: str = entry("full", word(*MODELS))
     normalised_by: str = entry("tangent", word(*NORMALISATIONS))
     sizes: Span = axis(Span(0.2, 10.0), *SIZES, distinct, ENDS)
@@ -113,7 +119,16 @@ class GroundView(View):
     def block(self) -> Block:
         """Selected block: a rectangle with Housner's restitution or that of a wall, uniform but for the offset of its mass centre."""
         wall = None if self.wall is None else Wall(self.wall)
-        return Block(self.height, self.width, offset=self.offset, wall=wall)
+        block = Block(self.height, self.width, offset=self.offset, wall=wall, restrainer=self.restrainer)
+        model, by = self.equation
+        return block if self.restrainer is None else with_unit(block, unit_for(block, by, model))
+
+    @property
+    def restrainer(self) -> Restrainer | None:
+        """Restrainer of the block; None without a stiffness and a force."""
+        if self.mass is None or (self.stiffness is None and self.prestress is None):
+            return None
+        return Restrainer(self.stiffness or 0.0, self.prestress or 0.0, self.mass)
 
     @property
     def shaking(self) -> tuple[Any, ...]:
@@ -143,8 +158,11 @@ class GroundView(View):
     def checked(self) -> GroundView:
         """Return the view; raise Refused if its block has no restitution of Housner, or does not suit the equation of motion.
 
-        Also if its mass centre is not above the base.
+        Also if its mass centre is not above the base, or if it is restrained and something else does not suit that.
         """
+        for name, value in (("stiffness", self.stiffness), ("prestress", self.prestress)):
+            if value is not None and self.mass is None:
+                raise Refused({name: f"{name} needs the mass of the block"})
         try:
             for angle in self.block.critical_angles:
                 critical_angle_for(self.model, angle, self.width)
@@ -153,9 +171,9 @@ class GroundView(View):
         return self
 
     def at_point(self, size: float, degrees: float) -> dict[str, str]:
-        """Return height, width, offset and wall, as text, of the block at a point of the map, with digits finer than the points.
+        """Return the fields, as text, of the block at a point of the map, with digits finer than the points.
 
-        The blocks of the map are symmetric, and have no wall.
+        The blocks of the map are symmetric, and have neither a wall nor a restrainer.
         """
         size = min(max(size, self.sizes.low), self.sizes.high)
         angle = math.radians(min(max(degrees, self.angles.low), self.angles.high))
@@ -164,7 +182,7 @@ class GroundView(View):
         sides = {"height": 2 * size * math.cos(angle), "width": 2 * size * math.sin(angle)}
         return {name: written(float(f"{side:.{digits}g}")) for name, side in sides.items()} | {
             "offset": "0",
-            "wall": "",
+            **dict.fromkeys(("wall", "stiffness", "prestress", "mass"), ""),
         }
 
 

@@ -266,6 +266,26 @@ def acceleration_of(p, drive):
 
 
 @contract
+def weight_of(p, drive):
+    """Return the weight of the block relative to that on a base at rest: 1 + the upward acceleration of the base in units of g."""
+
+
+@contract
+def weight_change_bound(p, drive, time):
+    """Return an upper bound on the change of the weight within the next ``time``."""
+
+
+@contract
+def lightest_ahead(p, drive):
+    """Return a lower bound of the weight from now on, 1 at most."""
+
+
+@contract
+def heaviest_ahead(p, drive):
+    """Return an upper bound of the size of the weight from now on, 1 at least."""
+
+
+@contract
 def smooth_time(p, drive):
     """Return the time until the base acceleration has a corner."""
 
@@ -287,12 +307,55 @@ def largest_ahead(p, side, drive):
 
 @contract
 def largest_within(p, drive, time):
-    """Return an upper bound of |base acceleration| up to a time before the next corner."""
+    """Return an upper bound of |base acceleration| up to a time before the next corner, plus |weight - 1|/alpha."""
 
 
 @contract
 def largest_near(p, drive, radius):
-    """Return an upper bound of |base acceleration| in the complex disc around an instant, of the series from there."""
+    """Return an upper bound of ``largest_within`` in the complex disc around an instant, of the series from there."""
+
+
+@contract
+def excess_push(p):
+    """Return by how much alpha |u''| and its derivative by w may exceed r^2 (1 + alpha |a|) at a base acceleration a, over alpha r^2."""
+
+
+@contract
+def stiffness(p, side, sine, cosine, drive):
+    """Return du''/du where r^2 sin w and r^2 cos w are these."""
+
+
+@contract
+def growth_of(p, stiffness):
+    """Return an upper bound of the square of the rate at which perturbations grow, from du''/du."""
+
+
+@contract
+def parts_at_base(p, side, weight):
+    """Return the sum of the sizes of the parts of u'' at the base without base motion, for the size of the weight."""
+
+
+@contract
+def flat_time(p, side, step, drive):
+    """Return the time in a step at which a block lies flat, if it might rise again before the end of the step; else infinity."""
+
+
+@contract
+def limits_within(p, arc, step, drive, h, end, extremes):
+    """Return the ``Extremes`` with what else errors may change within a time h of a step of an arc, at whose end is the angle ``end``."""
+
+
+@contract
+def never_returns(p, side, angle, velocity, drive):
+    """Return whether a block certainly never comes back to the base."""
+
+
+@contract
+def acceleration_near(p, side, sine, change, drive, radius):
+    """Return an upper bound of alpha |u''| in the complex disc around an instant.
+
+    There w is within ``change`` of its value at the instant, where r^2 sin w = ``sine``.
+    """
 
 
 @contract
@@ -328,6 +391,11 @@ def margin_estimate(p, arc, coming, stretch):
 
 
 @contract
+def estimate_error(p):
+    """Return about the largest error of ``contract.margin_estimate``."""
+
+
+@contract
 def margin_of(p, arc, estimate, in_batch):
     """Return the margin of an arc that starts at the base, from an estimate: by how much it is faster than a motion that stays bounded.
 
@@ -359,6 +427,21 @@ def largest_push(p):
 @contract
 def response_ahead(p, drive):
     """Return R, the integral of e^(t - x) times the base acceleration at x over all later times x."""
+
+
+@contract
+def bounded_velocity(p, side, angle, drive):
+    """Return about the speed of the motion that stays bounded, and about -1 times its derivative by u."""
+
+
+@contract
+def excess_at_end(p, side, angle, velocity):
+    """Return by how much a block is faster than the motion that stays bounded, after the base motion, and -1 times its derivative by u."""
+
+
+@contract
+def approach_of(p):
+    """Return the ``Approach`` of the search for the motion that stays bounded."""
 
 
 @contract

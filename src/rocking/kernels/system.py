@@ -1,7 +1,8 @@
 """Systems: a block, the motion of its base, and the clock. They are the parameters of all kernels.
 
 There are three blocks, ``Slender``, ``Unsymmetric`` (slender, with unequal sides) and ``Full``, and three motions of the base,
-``Cosine``, ``Samples`` and ``Pulse``. Compiled code exists for each pair, such as ``Full[Samples]``.
+``Cosine``, ``Samples`` and ``Pulse``. Compiled code exists for each pair, such as ``Full[Samples]``. A base that also moves vertically,
+``Biaxial``, is for the full block alone. A full block with a restrainer is ``Restrained``, for base motions that end.
 """
 
 import math
@@ -11,6 +12,7 @@ from typing import Generic, NamedTuple, TypeVar
 import numpy as np
 
 from rocking.kernels import contract
+from rocking.kernels.base.biaxial import Biaxial
 from rocking.kernels.base.cosine import (
     Cosine,
     Pulse,
@@ -25,8 +27,9 @@ from rocking.kernels.library.export import entry_point
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.library.signature import Floats2
 from rocking.kernels.numerics.elementary import cosine_of, sine_of, tangent_of
+from rocking.kernels.restrainer import Restrainer
 
-Base = TypeVar("Base", Cosine, Samples, Pulse)
+Base = TypeVar("Base", Cosine, Samples, Pulse, Biaxial)
 NO_LAW = np.empty((0, 2))
 
 
@@ -153,11 +156,25 @@ class Full(NamedTuple, Generic[Base]):
     resting: Slender[Base]  # the slender system that stays at rest, or at a brace, as long as this one
 
 
+class Restrained(NamedTuple, Generic[Base]):
+    """Full block with a restrainer, on a moving base. Press and level of ``block`` are those with the force of the restrainer."""
+
+    LIKE = Full  # the block with the same bodies, where none are its own
+    block: FullBlock
+    forcing: Base
+    clock: Clock
+    resting: Slender[Base]
+    restrainer: Restrainer
+    balanced: Slender[
+        Base
+    ]  # a slender system that moves as this one does near its unstable balance, in the unit of time there
+
+
 PeriodicParameters = Slender[Cosine] | Full[Cosine] | Unsymmetric[Cosine]
 """Systems whose base motion is periodic."""
-AnySampledParameters = Slender[Samples] | Full[Samples] | Unsymmetric[Samples]
-AnyPulseParameters = Slender[Pulse] | Full[Pulse] | Unsymmetric[Pulse]
-FiniteParameters = AnySampledParameters | AnyPulseParameters
+AnySampledParameters = Slender[Samples] | Full[Samples] | Unsymmetric[Samples] | Restrained[Samples]
+AnyPulseParameters = Slender[Pulse] | Full[Pulse] | Unsymmetric[Pulse] | Restrained[Pulse]
+FiniteParameters = AnySampledParameters | AnyPulseParameters | Full[Biaxial]
 """Systems whose base motion ends."""
 SystemParameters = PeriodicParameters | FiniteParameters
 Block = SlenderBlock | UnsymmetricBlock | FullBlock
@@ -505,6 +522,19 @@ def sampled_system(
     return Full(block, forcing, clock, Slender(_resting(block), resting, clock))
 
 
+def biaxial_system(
+    block: FullBlock, tables: Tables, scale: float, vertical: np.ndarray, cycle_length: float
+) -> Full[Biaxial]:
+    """Return the system of a full block without braces under samples in two directions; ``vertical`` (n,) is in units of g, upwards."""
+    weights = np.append(1.0 + vertical, 1.0)
+    lightest = np.ascontiguousarray(np.minimum.accumulate(weights[::-1])[:0:-1])
+    heaviest = np.ascontiguousarray(np.maximum.accumulate(np.abs(weights[::-1]))[:0:-1])
+    own = tables, np.ascontiguousarray(weights[:-1]), lightest, heaviest
+    clock = Clock(float(cycle_length))
+    resting = Slender(_resting(block), Biaxial(scale / block.level, *own), clock)
+    return Full(block, Biaxial(float(scale), *own), clock, resting)
+
+
 def pulse_system(
     block: Block,
     amplitude: float,
@@ -573,6 +603,7 @@ __all__ = [
     "CYCLE",
     "AnyPulseParameters",
     "AnySampledParameters",
+    "Biaxial",
     "Cosine",
     "FiniteParameters",
     "Full",
@@ -581,6 +612,7 @@ __all__ = [
     "LeftSide",
     "PeriodicParameters",
     "Pulse",
+    "Restrained",
     "Samples",
     "Scatter",
     "Slender",
@@ -589,6 +621,7 @@ __all__ = [
     "Tables",
     "Unsymmetric",
     "UnsymmetricBlock",
+    "biaxial_system",
     "full_block",
     "harmonic_parameters",
     "harmonic_system",

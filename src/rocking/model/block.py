@@ -10,8 +10,8 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.model.block_formulas import (
+    BLOCK_NORMALISATIONS,
     GRAVITY,
-    NORMALISATIONS,
     Dimensions,
     acceleration_unit_g,
     frequency_in_hertz,
@@ -19,11 +19,18 @@ from rocking.model.block_formulas import (
     housner_restitution,
     with_unit,
 )
-from rocking.model.forcing import BaseMotion, Forcing, Harmonic
+from rocking.model.changed_motion import checked_pair
+from rocking.model.forcing import BaseMotion, Forcing, Harmonic, PiecewiseLinear
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.quantity import AMPLITUDE, FREQUENCY, LEFT_RESTITUTION, SIZES
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, checked_law, law_of
-from rocking.model.restrainer import Restrainer, checked_restrainer
+from rocking.model.restrainer import (
+    STIFFEST,
+    RestrainedUnits,
+    Restrainer,
+    checked_restrainer,
+    restrained_units,
+)
 from rocking.model.section import SYMMETRIC, section_of
 from rocking.model.system import (
     MODELS,
@@ -103,7 +110,16 @@ def checked_wall(value: Wall | None) -> Wall | None:
 
 def checked_normalisation(value: str) -> str:
     """Return the name of the unit of acceleration, after checking."""
-    return one_of("normalised_by", value, NORMALISATIONS)
+    return one_of("normalised_by", value, BLOCK_NORMALISATIONS)
+
+
+def checked_vertical(base: Any, vertical: Any) -> GroundMotion:
+    """Return a vertical ground motion, after checking that it has the samples of the horizontal one."""
+    instance("vertical", vertical, GroundMotion)
+    allowed, remedy = "be omitted without a ground motion", "give both components of one record"
+    refuse_if(not isinstance(base, GroundMotion), "vertical", allowed, vertical, remedy)
+    checked_pair(base, vertical, "vertical", "horizontal component")
+    return vertical
 
 
 def size_warnings(checked_height: float, checked_width: float) -> Iterator[str]:
@@ -131,9 +147,10 @@ class Block(Dimensions):
     inertia_ratio : float, optional
         Io/(MR²), normalised moment of inertia about a corner, in [1, 10]. Default: that of a uniform rectangle of this height and
         width, 4/3 if the mass centre is its middle. With an `offset` give `radius_of_gyration` instead: the corners differ.
-    normalised_by : {"angle", "tangent"}
+    normalised_by : {"angle", "tangent", "balance"}
         Unit of `acceleration` and `amplitude`: g θcr, or g tan θcr. The block of a system has that of the system. It has no effect
-        on equality, nor on what `system` returns. Default: "angle".
+        on equality, nor on what `system` returns. With "balance", or "tangent", a restrained block converts as small angles do:
+        by its unstable balance (`restrained`). Default: "angle".
     offset : float
         Distance of the mass centre from the middle of the base, in metres, towards the edge about which the block turns for
         θ > 0. It is smaller than half the width. Default: 0. A positive sample of the base acceleration tips the block towards
@@ -231,14 +248,16 @@ class Block(Dimensions):
             self._check_restrained(self.restrainer)
 
     def _check_restrained(self, restrainer: Restrainer) -> None:
-        """Refuse a restrainer of a block whose sides differ, and one so stiff that a slender block has no unstable balance."""
+        """Refuse a restrainer of a block whose sides differ, one that is too stiff, and units that it does not have."""
         allowed = "be omitted for a restrained block"
-        refuse_if(self.wall is not None, "wall", allowed, Text(str(self.wall)))
+        if self.wall is not None:
+            raise Refusal("wall", allowed, Text(f"one with e_w = {self.wall.restitution:g}"))
         refuse_if(self.offset != 0, "offset", allowed, self.offset, "the restrainer is on its centre line")
         refuse_if(not self.has_equal_sides, "left_restitution", allowed, self.left_restitution)
-        largest = restrainer.stiffness / self.stiffness_ratio if self.stiffness_ratio else math.inf
-        allowed = f"be below {largest:.6g} N/m, from where on a slender block has no unstable balance"
-        refuse_if(self.stiffness_ratio >= 1.0, "stiffness", allowed, restrainer.stiffness)
+        if self.normalised_by != "angle":
+            check_balance(self)
+        allowed = f"be at most {STIFFEST * self.stiffness_unit:.6g} N/m, where κ = {STIFFEST:g}"
+        refuse_if(self.stiffness_ratio > STIFFEST, "stiffness", allowed, restrainer.stiffness)
 
     def _check_mass_centre(self) -> None:
         """Refuse a mass centre that is not above the base, and an inertia that is stated twice or that no body has."""
@@ -344,7 +363,7 @@ class Block(Dimensions):
         Parameters
         ----------
         stiffness : float
-            Stiffness EA/L in N/m, with κ = (EA/L) b sin θcr/(Mg) below 1; b is half the width.
+            Stiffness EA/L in N/m. κ = (EA/L) b sin θcr/(Mg), with half the width b, is below 1 for a slender block.
         prestress : float
             Force P₀ in N in the block at rest. Default: 0.
         mass : float
@@ -353,22 +372,28 @@ class Block(Dimensions):
         Returns
         -------
         Block
-            Restrained block. Its normalised quantities are those of the free block that moves as it does.
+            Restrained block.
 
         Raises
         ------
         TypeError
             If a value is not a real number.
         ValueError
-            If a value lies outside its range, if κ is 1 or more, or if the block has an offset, unequal sides or a wall. With
-            κ = 1 or more a slender block has no unstable balance: no base motion of finite length overturns it.
+            If a value lies outside its range, if κ exceeds 1000, or if the block has an offset, unequal sides or a wall.
 
         Notes
         -----
         With ρ = P₀/(Mg), the slender block obeys θ'' = α²[(1 − κ)θ ∓ (1 + ρ)θcr − a], with − for θ > 0, + for θ < 0 and the base
         acceleration a in units of g. With Θ = θ(1 − κ)/((1 + ρ)θcr), τ = α√(1 − κ)t and A = a/((1 + ρ)θcr) this is Yim & Lin's
-        Eq. (4), and Housner's restitution is unchanged. So all conversions of the block use these units, and everything that
-        holds for the free slender block holds for the restrained one. |Θ| = 1 is the unstable balance.
+        Eq. (4), and Housner's restitution is unchanged. So everything that holds for the free slender block holds for the restrained
+        one, in these units. |Θ| = 1 is the unstable balance. With κ = 1 or more there is none: no base motion of finite length
+        overturns the block, and `model="slender"` refuses it.
+
+        With the full equation, `model="full"`, θ'' = −α²[sin w + a cos w + κ sin θ + σρ sin θcr cos(θ/2)] on the side σ of θ, with
+        w = σθcr − θ. The restrainer is stretched by 2b sin(|θ|/2). Units are those of the free block.
+
+        The restrained block itself converts in the units of the free one, and the block of a system, `system.block`, in those of
+        the system.
 
         Examples
         --------
@@ -376,7 +401,10 @@ class Block(Dimensions):
         >>> restrained = block.restrained(stiffness=9e4, prestress=1200.0, mass=600.0)
         >>> round(restrained.stiffness_ratio, 4), round(restrained.prestress_ratio, 4)
         (0.5999, 0.2039)
-        >>> round(float(restrained.degrees(1.0) / block.degrees(1.0)), 4)
+        >>> from rocking import Pulse
+        >>> pulse = Pulse("one-sine", amplitude=3.0, duration=0.5)
+        >>> own = restrained.system(pulse, model="slender").block
+        >>> round(float(own.degrees(1.0) / block.degrees(1.0)), 4)
         3.0095
         """
         return evolve(self, restrainer=Restrainer(stiffness, prestress, mass))
@@ -386,8 +414,18 @@ class Block(Dimensions):
         """Ratio κ = (EA/L) b sin θcr/(Mg) of the stiffness of the restrainer to that of gravity; 0 without one."""
         if self.restrainer is None:
             return 0.0
-        lever = self.edges[0] * math.sin(self.critical_angle)
-        return self.restrainer.stiffness * lever / (self.restrainer.mass * GRAVITY)
+        return self.restrainer.stiffness * self._lever / (self.restrainer.mass * GRAVITY)
+
+    @property
+    def stiffness_unit(self) -> float:
+        """Stiffness EA/L of the restrainer in N/m with which κ would be 1; infinite without a restrainer."""
+        if self.restrainer is None:
+            return math.inf
+        return self.restrainer.mass * GRAVITY / self._lever
+
+    @property
+    def _lever(self) -> float:
+        return self.edges[0] * math.sin(self.critical_angle)
 
     @property
     def prestress_ratio(self) -> float:
@@ -397,18 +435,24 @@ class Block(Dimensions):
         )
 
     @property
+    def by_balance(self) -> bool:
+        """Flag: it converts as a slender restrained block does, by the unstable balance of small angles."""
+        return self.restrainer is not None and self.normalised_by != "angle"
+
+    @property
+    def _units(self) -> RestrainedUnits:
+        ratios = (self.stiffness_ratio, self.prestress_ratio) if self.by_balance else (0.0, 0.0)
+        return restrained_units(*ratios)
+
+    @property
     def angle_unit(self) -> float:
-        """Angle of the unstable balance in radians, the unit of normalised angles: θcr, with a restrainer θcr(1 + ρ)/(1 − κ)."""
-        if self.restrainer is None:
-            return self.critical_angle
-        return self.critical_angle * (1.0 + self.prestress_ratio) / (1.0 - self.stiffness_ratio)
+        """Unit of normalised angles in radians: θcr, in the units of a slender restrained block θcr(1 + ρ)/(1 − κ)."""
+        return self.critical_angle * self._units.angle
 
     @property
     def rate_unit(self) -> float:
-        """Inverse of the unit of time in 1/s: α, with a restrainer α√(1 − κ)."""
-        if self.restrainer is None:
-            return self.frequency_parameter
-        return self.frequency_parameter * math.sqrt(1.0 - self.stiffness_ratio)
+        """Inverse of the unit of time in 1/s: α, in the units of a slender restrained block α√(1 − κ)."""
+        return self.frequency_parameter * self._units.rate
 
     @property
     def size(self) -> str:
@@ -523,6 +567,11 @@ class Block(Dimensions):
         return self.offset == 0 and self.left_restitution == self.restitution
 
     @property
+    def is_unsymmetric(self) -> bool:
+        """Flag: the block turns to both sides, and these differ. A block against a wall turns to one side."""
+        return self.wall is None and not self.has_equal_sides
+
+    @property
     def left(self) -> Side | None:
         """Side θ < 0 in units of side 1 if it differs, or the wall there; None for a symmetric block."""
         if self.wall is not None:
@@ -545,6 +594,7 @@ class Block(Dimensions):
         phase: float = 0.0,
         braces: Braces | None = None,
         wall: Wall | None = None,
+        vertical: GroundMotion | None = None,
         model: str | None = None,
         normalised_by: str | None = None,
     ) -> System:
@@ -565,6 +615,9 @@ class Block(Dimensions):
             Braces with a normalised angle, such as `Braces(angle=block.angle(degrees=3))`. Default: no braces.
         wall : Wall, optional
             Wall on the side θ < 0, whose coefficient of restitution is that of all impacts. Default: that of the block, if any.
+        vertical : GroundMotion, optional
+            Vertical acceleration of the ground, positive upwards, with the step and the number of samples of the ground motion
+            `base`. Default: the ground moves horizontally.
         model : {"slender", "full"}, optional
             Equation of motion: that of small angles, or the full one. Default: "full" under a ground motion or a pulse, "slender" on
             a harmonic base.
@@ -618,31 +671,44 @@ class Block(Dimensions):
             )
             got = Text(f"braces at {braces.angle:g}")
             raise WrongType("braces", f"be omitted for a block {what}", got, remedy)
-        check_restrained_model(block, model)
+        check_restrained_model(block, model, harmonic=base is None)
         angle = critical_angle_for(model, self.critical_angle, self.width)
         critical_angle_for(model, self.critical_angles[1], self.width)
         check_model(block.law, model)
-        own = with_unit(block, normalisation_for(normalised_by, model, finite=base is not None))
+        own = with_unit(block, unit_for(block, normalised_by, model, finite=base is not None))
         if base is None:
+            refuse_if(vertical is not None, "vertical", "be omitted without a ground motion", vertical)
             return own._made(own._harmonic(**harmonic, phase=phase), braces, angle, block.law.scatter)
         values = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
         if values:
             raise WrongType(values[0], "be omitted with {base}")
         if isinstance(base, GroundMotion) and base.vertical:
             warn_of_value(vertical_sentence([base.component]))
-        scales = own.acceleration(1.0), self.rate_unit
+        scales = own.acceleration(1.0), own.rate_unit
         forcing = instance("base", base, BaseMotion).normalised(*scales)
+        lift = None if vertical is None else checked_vertical(base, vertical).normalised(GRAVITY, scales[1])
         scatter = block.law.scatter
         if scatter is not None and isinstance(base, GroundMotion):
             scatter = evolve(scatter, run=base.number)
-        return own._made(forcing, braces, angle, scatter)
+        return own._made(forcing, braces, angle, scatter, lift)
 
     def _made(
-        self, forcing: Forcing, braces: Braces | None, critical_angle: float | None, scatter: Scatter | None
+        self,
+        forcing: Forcing,
+        braces: Braces | None,
+        critical_angle: float | None,
+        scatter: Scatter | None,
+        vertical: PiecewiseLinear | None = None,
     ) -> System:
         """Return the system of the block, which it knows."""
         rows = self.law.normalised_rows(float(self.radians_per_second(1.0)))
-        more: dict[str, Any] = {"restitution_table": rows, "restitution_scatter": scatter}
+        more: dict[str, Any] = {
+            "restitution_table": rows,
+            "restitution_scatter": scatter,
+            "vertical": vertical,
+        }
+        if critical_angle is not None:
+            more |= {"stiffness_ratio": self.stiffness_ratio, "prestress_ratio": self.prestress_ratio}
         return System(forcing, self.restitution, braces, critical_angle, left=self.left, block=self, **more)
 
     def _harmonic(
@@ -676,9 +742,8 @@ class Block(Dimensions):
 
     @property
     def acceleration_unit_g(self) -> float:
-        """Base acceleration in g that is 1 if it is normalised: θcr or tan θcr, as `normalised_by` says, times 1 + ρ."""
-        unit = acceleration_unit_g(self.critical_angle, self.normalised_by)
-        return unit if self.restrainer is None else unit * (1.0 + self.prestress_ratio)
+        """Base acceleration in g that is 1 if it is normalised: θcr, or tan θcr; of a slender restrained block (1 + ρ) times that."""
+        return acceleration_unit_g(self.critical_angle, self.normalised_by) * self._units.acceleration
 
     def acceleration(self, amplitude: Any) -> Any:
         """Base acceleration a_x in m/s², from a normalised amplitude A: A g θcr or A g tan θcr, as `normalised_by` says."""
@@ -782,14 +847,31 @@ class Block(Dimensions):
         return f"Block(height={self.height} m, width={self.width} m, {values})"
 
 
-def check_restrained_model(block: Block, model: str) -> None:
-    """Raise ValueError for the full equation of motion of a restrained block."""
-    full = one_of("model", model, MODELS) == "full"
-    refuse_if(block.restrainer is not None and full, "model", "be 'slender' for a restrained block", model)
+def check_balance(block: Block) -> None:
+    """Raise ValueError for a restrainer so stiff that a slender block has no unstable balance."""
+    if block.restrainer is not None and block.stiffness_ratio >= 1.0:
+        allowed = (
+            f"be below {block.stiffness_unit:.6g} N/m, from where on a slender block has no unstable balance"
+        )
+        raise Refusal("stiffness", allowed, block.restrainer.stiffness, "the full {model} takes any")
+
+
+def check_restrained_model(block: Block, model: str, *, harmonic: bool = False) -> None:
+    """Raise ValueError for the full equation of a restrained block on a harmonic base, and for a slender one without a balance."""
+    if one_of("model", model, MODELS) == "slender":
+        check_balance(block)
+    elif harmonic and block.restrainer is not None:
+        raise Refusal("model", "be 'slender' for a restrained block on a harmonic base", model)
+
+
+def unit_for(block: Block, normalised_by: str | None, model: str, *, finite: bool = True) -> str:
+    """Return the units of a block for an equation of motion, after checking; those of a slender restrained one are its own."""
+    chosen = normalisation_for(normalised_by, model, finite=finite)
+    return "balance" if (chosen, model) == ("angle", "slender") and block.restrainer is not None else chosen
 
 
 def restrainer_quantities(block: Block, model: str) -> dict[str, float]:
-    """Return the ratios of a restrained block in a survey, none of a free one; ValueError for the full equation of motion."""
+    """Return the ratios of a restrained block in a survey, none of a free one; ValueError for a slender one without a balance."""
     check_restrained_model(block, model)
     if block.restrainer is None:
         return {}

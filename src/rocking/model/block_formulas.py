@@ -12,11 +12,13 @@ from rocking.model.validation import exactly_one, within
 GRAVITY = 9.80665
 NORMALISATIONS = ("angle", "tangent")
 """Units of the base acceleration: g θcr of Yim & Lin (1991), or g tan θcr, at which a real block lifts off."""
+BLOCK_NORMALISATIONS = (*NORMALISATIONS, "balance")
+"""The same, and g θcr for the slender restrained block, whose angles are in units of its unstable balance with the last two."""
 
 
 def acceleration_unit_g(critical_angle: float, normalised_by: str) -> float:
     """Return the base acceleration in g that is 1 if it is normalised: θcr, or tan θcr."""
-    return critical_angle if normalised_by == "angle" else math.tan(critical_angle)
+    return math.tan(critical_angle) if normalised_by == "tangent" else critical_angle
 
 
 def frequency_parameter(radius: float, inertia_ratio: float) -> float:
@@ -43,5 +45,5 @@ class Dimensions:
 
 
 def with_unit(block: Any, normalised_by: str) -> Any:
-    """Return a block with a unit of acceleration; the same object if it has it, so that no warning is repeated."""
+    """Return a block with its units; the same object if it has them, so that no warning is repeated."""
     return block if block.normalised_by == normalised_by else evolve(block, normalised_by=normalised_by)

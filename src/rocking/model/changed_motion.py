@@ -53,16 +53,18 @@ def azimuth(component: str) -> float | None:
     return (from_north if match.group(1).upper() == "N" else 180.0 - from_north) % 360.0
 
 
-def checked_pair(first: GroundMotion, other: Any) -> None:
-    """Refuse anything but two motions with the same step and the same number of samples."""
-    instance("other", other, type(first))
+def checked_pair(
+    first: GroundMotion, other: Any, name: str = "other", own_name: str = "first component"
+) -> None:
+    """Refuse anything but two motions with the same step and the same number of samples; `name` is the argument of the other one."""
+    instance(name, other, type(first))
     size, step = first.times.size, first.step
     if (other.step, other.times.size) != (step, size):
         own = f"{counted(size, 'sample')} with a step of {step:g} s"
         found = f"{counted(other.times.size, 'sample')} with a step of {other.step:g} s"
         clipped = f"take .clipped(end={min(first.duration, other.duration):g}) of both"
         remedy = clipped if other.step == step else f"take .resampled({step:g}) of it"
-        raise Refusal("other", f"have {own}, as the first component", Text(found), remedy)
+        raise Refusal(name, f"have {own}, as the {own_name}", Text(found), remedy)
 
 
 class ChangedMotion:

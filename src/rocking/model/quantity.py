@@ -308,7 +308,7 @@ WALL_RESTITUTION = Quantity(
     help="Coefficient of restitution of impacts against a wall on the side θ < 0. Default: no wall.",
 )
 STIFFNESS_RATIO = Quantity(
-    "stiffness_ratio", "κ", "stiffness of the restrainer over that of gravity", (0.0, 1.0)
+    "stiffness_ratio", "κ", "stiffness of the restrainer over that of gravity", (0.0, 1e3)
 )
 PRESTRESS_RATIO = Quantity(
     "prestress_ratio", "ρ", "force of the restrainer at rest over the weight", (0.0, 1e6)

@@ -1,8 +1,9 @@
-"""Vertical elastic restrainer of a block, on its centre line."""
+"""Vertical elastic restrainer of a block, on its centre line, and the units of a restrained block."""
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from typing import Any, NamedTuple
 
 from attrs import field, frozen
 
@@ -11,6 +12,8 @@ from rocking.model.validation import instance, within
 LARGEST = 1e15
 MASSES = (1e-6, 1e12)
 """Range of the mass of a block, kg."""
+STIFFEST = 1e3
+"""Largest ratio κ of the stiffness of a restrainer to that of gravity."""
 
 
 def _stiffness(value: float) -> float:
@@ -59,3 +62,23 @@ class Restrainer:
 def checked_restrainer(value: Any) -> Restrainer | None:
     """Return a restrainer, after checking its type."""
     return None if value is None else instance("restrainer", value, Restrainer)
+
+
+class RestrainedUnits(NamedTuple):
+    """Units of a restrained block of small angles over those of the free one."""
+
+    angle: float
+    rate: float
+    acceleration: float
+
+
+def restrained_units(stiffness_ratio: float, prestress_ratio: float) -> RestrainedUnits:
+    """Return the units of small angles for the ratios κ and ρ of a restrainer: (1 + ρ)/(1 − κ), √(1 − κ) and 1 + ρ; 1 without it.
+
+    Examples
+    --------
+    >>> restrained_units(stiffness_ratio=0.75, prestress_ratio=0.5)
+    RestrainedUnits(angle=6.0, rate=0.5, acceleration=1.5)
+    """
+    kept, force = 1.0 - stiffness_ratio, 1.0 + prestress_ratio
+    return RestrainedUnits(force / kept, math.sqrt(kept), force)

@@ -61,7 +61,7 @@ def with_own_units(text: str, block: Block) -> str:
     """Return a description or a heading with the units of a block: its acceleration, and the unstable balance of a restrained one."""
     if block.normalised_by == "tangent":
         text = text.replace("g theta_cr", "g tan theta_cr")
-    if block.restrainer is None:
+    if not block.by_balance:
         return text
     text = re.sub(r"g (tan )?theta_cr", r"(1 + rho) g \1#", text)
     text = re.sub(r"\balpha\b", "alpha_u", text.replace("theta_cr", "theta_u"))
@@ -132,7 +132,7 @@ class Result:
         data = self._with_sizes(data, block)
         data = data.copy(deep=False) if chosen is None else in_si(data, chosen, self.QUANTITIES)
         data.attrs = dict(_plain(data.attrs))
-        if chosen is None and self.block is not None and self.block.restrainer is not None:
+        if chosen is None and self.block is not None and self.block.by_balance:
             data.attrs |= {"comment": with_own_units(data.attrs.get("comment", ""), self.block)}
         if chosen is None and self.block is not None:
             for each in data.variables.values():

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from attrs import astuple, evolve, field, frozen
 
 from rocking.model.block_formulas import NORMALISATIONS, Dimensions, with_unit
-from rocking.model.forcing import Forcing, Harmonic
+from rocking.model.forcing import Forcing, Harmonic, PiecewiseLinear
 from rocking.model.quantity import (
     ANGLE,
     ANGLE_RATIO,
@@ -17,7 +17,9 @@ from rocking.model.quantity import (
     CRITICAL_ANGLE,
     FREQUENCY_RATIO,
     LEFT_QUANTITIES,
+    PRESTRESS_RATIO,
     RESTITUTION,
+    STIFFNESS_RATIO,
     VELOCITY,
 )
 from rocking.model.restitution import Restitution, Scatter, check_certain, check_scatter, checked_rows
@@ -221,6 +223,18 @@ def _restitution_table(value: Iterable[tuple[float, float]]) -> tuple[tuple[floa
     return checked_rows("restitution_table", value)
 
 
+def _vertical(value: PiecewiseLinear | None) -> PiecewiseLinear | None:
+    return None if value is None else instance("vertical", value, PiecewiseLinear)
+
+
+def _stiffness_ratio(value: float) -> float:
+    return STIFFNESS_RATIO.checked(value)
+
+
+def _prestress_ratio(value: float) -> float:
+    return PRESTRESS_RATIO.checked(value)
+
+
 def _critical_angle(value: float | None) -> float | None:
     return None if value is None else CRITICAL_ANGLE.checked(value)
 
@@ -244,6 +258,12 @@ class System:
     An unsymmetric block has a `left` side with q = θcr₂/θcr₁ and r = α₂/α₁. All units are those of the right side, Θ > 0. On the
     left side, Θ'' = r²[Θ + q − A(τ)] for a slender block, and Θ'' = r²[sin(w)/θcr − A(τ) cos(w)] with w = θcr (q + Θ) for the full
     equation. The impact that ends the motion on a side has the coefficient of restitution of that side.
+
+    With a restrainer (`Block.restrained`) and θ = θcr Θ, Θ'' = −σ[sin(w) + κ sin|θ| + ρ sin(θcr) cos(θ/2)]/θcr − A(τ) cos(w). The
+    block at rest lifts off where |A| exceeds 1 + ρ times the level without it.
+
+    On a base with a `vertical` acceleration a_v, the terms without A are multiplied by 1 + a_v: Θ'' = (1 + a_v)(Θ ∓ 1) − A(τ), and
+    sin(w) becomes (1 + a_v) sin(w). The block at rest lifts off where |A| exceeds (1 + a_v) times the level without a_v.
 
     Parameters
     ----------
@@ -271,6 +291,11 @@ class System:
     left : LeftSide or Wall, optional
         Left side of an unsymmetric block, or a wall there, whose coefficient of restitution is then that of the system. Default:
         none, a symmetric block. One that equals the right side counts as none.
+    vertical : PiecewiseLinear, optional
+        Vertical acceleration a_v of the base in units of g, positive upwards, with the step and the number of samples of `forcing`. It
+        multiplies the weight of the block by 1 + a_v. Default: none.
+    stiffness_ratio, prestress_ratio : float
+        Ratios κ in [0, 1000] and ρ in [0, 1e6] of a restrainer for the full equation, under a base motion that ends. Default: 0.
 
     Raises
     ------
@@ -294,10 +319,17 @@ class System:
     restitution_scatter: Scatter | None = field(default=None, converter=check_scatter, kw_only=True)
     block: Block | None = field(default=None, converter=_block, kw_only=True, eq=False, repr=False)
     left: Side | None = field(default=None, converter=_left, kw_only=True)
+    vertical: PiecewiseLinear | None = field(default=None, converter=_vertical, kw_only=True)
+    stiffness_ratio: float = field(default=0.0, converter=_stiffness_ratio, kw_only=True)
+    prestress_ratio: float = field(default=0.0, converter=_prestress_ratio, kw_only=True)
 
     def __attrs_post_init__(self) -> None:
         """Refuse a table for the slender block, and braces that a full block reaches only when it lies flat."""
         self._check_left()
+        if self.vertical is not None:
+            self._check_vertical(self.vertical)
+        if self.is_restrained:
+            self._check_restrainer()
         if self.block is not None:
             restrained = self.block.restrainer is not None
             refuse_if(restrained and self.braces is not None, "braces", RESTRAINED, Text(str(self.braces)))
@@ -335,6 +367,34 @@ class System:
             low, high = (each / self.critical_angle for each in CRITICAL_ANGLE.range)
             within("angle_ratio", self.left.angle_ratio, low, high)
 
+    def _check_vertical(self, vertical: PiecewiseLinear) -> None:
+        """Refuse what does not go with a vertical acceleration: any base motion but samples at the same times, braces, a restrainer."""
+        base, got = self.forcing, Text("both")
+        allowed = "be omitted unless {forcing} is rk.PiecewiseLinear"
+        if not isinstance(base, PiecewiseLinear):
+            raise Refusal("vertical", allowed, Text(f"{{forcing}} {base}"))
+        allowed = f"have {base.values.size} samples with a step of {base.step:g}, as {{forcing}}"
+        apart = (vertical.values.size, vertical.step) != (base.values.size, base.step)
+        refuse_if(apart, "vertical", allowed, vertical)
+        refuse_if(self.braces is not None, "braces", "be omitted with {vertical}", got)
+        restrained = self.block is not None and self.block.restrainer is not None
+        refuse_if(restrained, "vertical", RESTRAINED, vertical)
+
+    def _check_restrainer(self) -> None:
+        """Refuse what does not go with a restrainer: small angles, a harmonic base, braces, a left side, vertical motion."""
+        name = "stiffness_ratio" if self.stiffness_ratio else "prestress_ratio"
+        value = self.stiffness_ratio or self.prestress_ratio
+        remedy = "give its {critical_angle}, or rk.Block.restrained"
+        refuse_if(self.critical_angle is None, name, "be 0 for a slender block", value, remedy)
+        refuse_if(isinstance(self.forcing, Harmonic), name, "be 0 on a harmonic base", value)
+        for other, given in (("braces", self.braces), ("left", self.left), ("vertical", self.vertical)):
+            refuse_if(given is not None, other, RESTRAINED, Text(str(given)))
+
+    @property
+    def is_restrained(self) -> bool:
+        """Flag: the full equation has the terms of a restrainer."""
+        return self.stiffness_ratio > 0.0 or self.prestress_ratio > 0.0
+
     def _check_wall(self, wall: Wall) -> None:
         """Refuse what is not for a block against a wall: braces, and another restitution than that of the wall."""
         for name, value in (
@@ -364,10 +424,14 @@ class System:
         ]
         if self.critical_angle not in (None, block.critical_angle) or ratios[0] != ratios[1]:
             return None
-        if self.critical_angle is not None and block.restrainer is not None:
+        slender = self.critical_angle is None
+        restrainer = (0.0, 0.0) if slender else (block.stiffness_ratio, block.prestress_ratio)
+        if restrainer != (self.stiffness_ratio, self.prestress_ratio):
             return None
-        if self.critical_angle is not None or isinstance(self.forcing, Harmonic):
+        if not slender:
             block = with_unit(block, "angle")
+        elif isinstance(self.forcing, Harmonic):
+            block = with_unit(block, "angle" if block.restrainer is None else "balance")
         left = self.restitution if own is None else own.restitution
         scatter = None if self.restitution_scatter is None else evolve(self.restitution_scatter, run=0)
         unit = float(block.radians_per_second(1.0))
@@ -395,7 +459,10 @@ class System:
 
     @property
     def normalised_by(self) -> str:
-        """Unit of the base acceleration: "angle", g θcr, or "tangent", g tan θcr, as `Block.system` chose it."""
+        """Unit of the base acceleration, as `Block.system` chose it: "angle", g θcr, "tangent", g tan θcr, or "balance", (1 + ρ)g θcr.
+
+        The last is that of a slender restrained block, for which "tangent" stands for (1 + ρ)g tan θcr.
+        """
         return "angle" if self.block is None else self.block.normalised_by
 
     @property
@@ -418,7 +485,7 @@ class System:
 
     @property
     def lift_off(self) -> float:
-        """Base acceleration above which a block lifts off from rest, in units of g θcr: 1, or tan θcr/θcr for the full equation.
+        """Base acceleration above which a block lifts off from rest, in units of g θcr: 1, or (1 + ρ) tan θcr/θcr for the full equation.
 
         For an unsymmetric block it is that of the side on which it lifts off first.
         """
@@ -432,7 +499,10 @@ class System:
             return ratios
         if self.wall is not None:
             return math.tan(self.critical_angle) / self.critical_angle, math.inf
-        right, left = (math.tan(ratio * self.critical_angle) / self.critical_angle for ratio in ratios)
+        force = 1.0 + self.prestress_ratio
+        right, left = (
+            force * (math.tan(ratio * self.critical_angle) / self.critical_angle) for ratio in ratios
+        )
         return right, left
 
     @property
@@ -449,7 +519,7 @@ class System:
 
 
 def quantities(system: System) -> dict[str, float]:
-    """Return the quantities of a system by name; the critical angle and those of braces and of the left side only if it has them.
+    """Return the quantities of a system by name; those of the full equation, braces, a restrainer and the left side only if it has them.
 
     Examples
     --------
@@ -462,6 +532,8 @@ def quantities(system: System) -> dict[str, float]:
         rows["critical_angle"] = system.critical_angle
     if braces is not None:
         rows |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+    if system.is_restrained:
+        rows |= {"stiffness_ratio": system.stiffness_ratio, "prestress_ratio": system.prestress_ratio}
     return rows | left_quantities(system.left)
 
 

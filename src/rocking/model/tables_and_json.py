@@ -96,7 +96,7 @@ def quantity(name: Hashable, own: Quantities, description: str = "") -> Quantity
 
 def si_of(known: Quantity, name: Hashable, block: Any) -> SI | None:
     """Return the SI counterpart of a quantity; none of the margin of a block with unequal sides, in units of the side at that time."""
-    sides = block is not None and block.left is not None and block.wall is None
+    sides = block is not None and block.is_unsymmetric
     return None if name == "margin" and sides else known.si
 
 

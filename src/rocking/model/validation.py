@@ -59,6 +59,25 @@ class TooManyEvents(ValueError):
     """
 
 
+class ContactLost(ValueError):
+    """Motion under vertical acceleration in which the block leaves the base: its weight or the base reaction vanishes.
+
+    The message states the instant.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> block = rk.Block(height=2.0, width=0.6)
+    >>> ground = rk.GroundMotion([0.0, 4.0, 0.0], step=0.5)
+    >>> down = rk.GroundMotion([0.0, -12.0, 0.0], step=0.5)
+    >>> try:
+    ...     print(rk.simulate(block.system(ground, vertical=down)))
+    ... except rk.ContactLost as lost:
+    ...     print(lost)
+    the weight vanishes at t = 0.408610 s: the block leaves the base
+    """
+
+
 class TooShort(ValueError):
     """Motion that is too short for an estimate with an error.
 
@@ -121,12 +140,21 @@ class NoOrbit(ValueError):
 class RecordError(ValueError):
     """Record file that cannot be read. The message is one line and names the file and the place.
 
+    Attributes
+    ----------
+    argument : str
+        "units" or "step" if the file lacks what this argument gives, or if it states it itself; empty for any other error.
+
     Examples
     --------
     >>> import rocking as rk
     >>> str(rk.RecordError("a.at2, line 4: no step"))
     'a.at2, line 4: no step'
     """
+
+    def __init__(self, message: str, argument: str = "") -> None:
+        super().__init__(message)
+        self.argument = argument
 
 
 class Text(str):

@@ -11,15 +11,22 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels import system as numbers
+from rocking.kernels.block.restrained import restrained_under_pulse, restrained_under_samples
 from rocking.kernels.motion import march
 from rocking.kernels.motion import observers as event_rows
 from rocking.kernels.motion import tangent as differences
+from rocking.kernels.restrainer import Restrainer, restrainer_of
 from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
 from rocking.model.restitution import Scatter
 from rocking.model.system import State, System, check_periodic
 from rocking.model.validation import TooManyEvents
 from rocking.model.verdict import Outcome
 
+SMALL = 1e-8
+"""Critical angle with which a slender block under vertical acceleration is followed by the full equation.
+
+Up to |Θ| = 2 its sine and tangent are linear, and its cosine is 1, to 2e-16. So the equation is that of the slender block to rounding.
+"""
 MAX_TABLES = 8
 """Number of tables that are kept: those of the same samples and step, for all scales and restitutions."""
 _tables: OrderedDict[tuple[int, float], tuple[np.ndarray, numbers.Tables]] = OrderedDict()
@@ -37,24 +44,41 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
         return numbers.harmonic_system(block, *wave)
     if isinstance(forcing, Pulse):
         if forcing.cosine is not None:
-            return numbers.pulse_system(block, **_cosine_of(forcing, cycle_length))
+            made = numbers.pulse_system(block, **_cosine_of(forcing, cycle_length))
+            return restrained_under_pulse(made, _restrainer_of(system)) if system.is_restrained else made
         forcing = forcing.samples
     assert isinstance(forcing, PiecewiseLinear)
     length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
-    return numbers.sampled_system(block, tables_for(forcing), forcing.scale, length)
+    if system.vertical is not None:
+        assert isinstance(block, numbers.FullBlock)
+        vertical = system.vertical.scale * system.vertical.values
+        return numbers.biaxial_system(block, tables_for(forcing), forcing.scale, vertical, length)
+    free = numbers.sampled_system(block, tables_for(forcing), forcing.scale, length)
+    if not system.is_restrained:
+        return free
+    own = _restrainer_of(system)
+    return restrained_under_samples(free, own, tables_for(forcing, own.rate))
+
+
+def _restrainer_of(system: System) -> Restrainer:
+    assert system.critical_angle is not None
+    return restrainer_of(system.critical_angle, system.stiffness_ratio, system.prestress_ratio)
 
 
 def _block_of(system: System) -> numbers.Block:
     braces = (math.inf, 1.0) if system.braces is None else (system.braces.angle, system.braces.restitution)
-    if system.critical_angle is None:
-        return numbers.slender_block(system.restitution, *braces, left=_left_of(system))
+    critical_angle = system.critical_angle
+    if critical_angle is None:
+        if system.vertical is None:
+            return numbers.slender_block(system.restitution, *braces, left=_left_of(system))
+        critical_angle = SMALL
     rows, unit, block = system.restitution_law, 1.0, system.block
     if block is not None and block.law.rows:  # with the rounding of surveys, whose speeds are in rad/s
         rows, unit = block.law.rows, float(block.radians_per_second(1.0))
     law = np.array(rows).reshape(-1, 2)
     largest = max([system.restitution, *law[:, 1].tolist()])
     scatter, left = scatter_of(system.restitution_scatter), _left_of(system)
-    made = numbers.full_block(largest, system.critical_angle, *braces, law, left=left, scatter=scatter)
+    made = numbers.full_block(largest, critical_angle, *braces, law, left=left, scatter=scatter)
     return made._replace(speed_unit=unit)
 
 
@@ -85,14 +109,14 @@ def _cosine_of(pulse: Pulse, cycle_length: float | None) -> dict[str, Any]:
     }
 
 
-def tables_for(forcing: PiecewiseLinear) -> numbers.Tables:
-    """Return the tables of the samples of a forcing, made once as long as they are kept."""
-    key = id(forcing.values), forcing.step
+def tables_for(forcing: PiecewiseLinear, rate: float = 1.0) -> numbers.Tables:
+    """Return the tables of the samples of a forcing, its step multiplied by a rate, made once as long as they are kept."""
+    key = id(forcing.values), forcing.step * rate
     with _lock:
         if key in _tables:
             _tables.move_to_end(key)
             return _tables[key][1]
-    made = numbers.tables_of(forcing.values, forcing.step)
+    made = numbers.tables_of(forcing.values, forcing.step * rate)
     with _lock:
         _tables[key] = forcing.values, made  # the samples too, so that no others get their identity
         while len(_tables) > MAX_TABLES:

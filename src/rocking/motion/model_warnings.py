@@ -52,11 +52,21 @@ def block_warnings(
     yield from height_warnings(block.height)
     if not full:
         right, left = block.critical_angles
-        balance = max(right, left) if block.restrainer is None else block.angle_unit
+        balance = block.angle_unit if block.by_balance else max(right, left)
         yield from proportion_warnings(right, balance if angle is None else angle, block.normalised_by, left)
-        if block.normalised_by == "angle":
+        if block.normalised_by != "tangent":
             yield from _lifting(block, np.atleast_1d(amplitudes))
     yield from impact_warnings(block, restitution, left_restitution)
+
+
+def restrained_warnings(block: Block, peak: float, restitution: float) -> Iterator[str]:
+    """Yield a sentence on what is not checked for a restrained block, and one for each assumption that does not hold.
+
+    They are for its largest |Θ| and for the smallest coefficient of restitution in use.
+    """
+    yield "sliding and jumping of a restrained block are not checked"
+    reached = float(block.radians(min(peak, 1.0)))
+    yield from block_warnings(block, (), restitution, angle=reached, full=not block.by_balance)
 
 
 def height_warnings(height: float) -> Iterator[str]:
@@ -99,7 +109,7 @@ def slender_errors(
         return math.inf, math.inf
     unit = critical_angle / acceleration_unit_g(critical_angle, normalised_by)
     moment, push = worst / math.sin(worst) - 1, unit / math.cos(worst) - 1
-    return moment, push if normalised_by == "angle" else max(push, 1 - unit / math.cos(least))
+    return moment, max(push, 1 - unit / math.cos(least)) if normalised_by == "tangent" else push
 
 
 def degrees_too(angle: float, digits: int = 3) -> str:
@@ -123,7 +133,7 @@ def proportion_warnings(
 
 def off(normalised_by: str) -> str:
     """Return the words before the error of the moment of the base acceleration, which the tangent also underestimates."""
-    return "by up to" if normalised_by == "angle" else "is wrong by up to"
+    return "is wrong by up to" if normalised_by == "tangent" else "by up to"
 
 
 def _lifting(block: Block, amplitudes: np.ndarray) -> Iterator[str]:

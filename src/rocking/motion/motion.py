@@ -13,7 +13,7 @@ from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
 from rocking.model.quantity import ANGLE, FRICTION
 from rocking.model.restitution import system_attributes
 from rocking.model.result import Result, described
-from rocking.model.system import quantities
+from rocking.model.system import System, quantities
 from rocking.model.text import counted
 from rocking.model.validation import instance, refuse_if, within
 from rocking.model.verdict import Overturning
@@ -153,6 +153,10 @@ def _samples(motion: Trajectory, times: np.ndarray, block: Block | None) -> tupl
         "acceleration": _variable("time", motion.acceleration(times), "angular acceleration of the block"),
         "base_acceleration": _variable("time", base, "horizontal acceleration of the base"),
     }
+    if motion.system.vertical is not None:
+        weight = 1 + motion.system.vertical.acceleration(times)
+        text = "weight of the block on the moving base, relative to that on a base at rest"
+        variables["weight"] = _variable("time", weight, text)
     if block is not None:
         top = block.top_displacement(angle)
         variables["top_displacement"] = _variable("time", top, "displacement of the block's top", "m")
@@ -165,6 +169,14 @@ def _events(motion: Trajectory) -> Variables:
         for name, (unit, text) in EVENTS.items()
         if name not in OF_CYCLES or has_cycles(motion)
     }
+
+
+def vertical_attributes(system: System) -> dict[str, float]:
+    """Return the least and the largest vertical acceleration of the base, in units of g; none if it moves horizontally."""
+    if system.vertical is None:
+        return {}
+    upwards = system.vertical.scale * system.vertical.values
+    return {"vertical_least_g": float(upwards.min()), "vertical_largest_g": float(upwards.max())}
 
 
 def _section(motion: Trajectory) -> tuple[Variables, Variables]:
@@ -204,6 +216,7 @@ def _attributes(motion: Trajectory) -> dict[str, Any]:
         **({"pulse": forcing.kind} if isinstance(forcing, Pulse) else {}),
         **quantities(motion.system),
         **system_attributes(motion.system),
+        **vertical_attributes(motion.system),
         "model": "slender" if motion.system.critical_angle is None else "full",
         "start_angle": motion.start.angle,
         "start_velocity": motion.start.velocity,

@@ -20,6 +20,7 @@ from rocking.model.verdict import Overturning
 from rocking.motion.march_loop import is_lossless, outcome_of, parameters, run, start_march, state_of
 from rocking.motion.motion import Motion
 from rocking.motion.trajectory import events_of
+from rocking.motion.validity import check_contact
 
 MAX_CYCLES = 1_000_000_000
 MAX_SECTION_CYCLES = 100_000_000
@@ -77,6 +78,8 @@ def simulate(
         If an argument lies outside its range.
     TooManyEvents
         If there are more than 10⁷ events to record, or more than 10⁷ events in one cycle.
+    ContactLost
+        If the weight or the base reaction vanishes under vertical acceleration.
 
     See Also
     --------
@@ -114,7 +117,7 @@ def simulate(
     end = progress.cycle * p.clock.cycle_length
     if count == march.OPEN:
         end = max(end + progress.arc.start, system.forcing.span)
-    return Motion(
+    motion = Motion(
         system=system,
         start=start,
         record=record,
@@ -133,6 +136,9 @@ def simulate(
         section_rows=section,
         event_rows=np.concatenate([first, *rows]) if record == "all" else first[:0],
     )
+    if system.vertical is not None:
+        check_contact(motion if record == "all" else simulate(system, start, duration=duration))
+    return motion
 
 
 def _span(

@@ -16,7 +16,7 @@ from rocking.kernels.motion import march
 from rocking.model.block import Block, unrestrained
 from rocking.model.forcing import Harmonic, PiecewiseLinear, Pulse
 from rocking.model.result import in_units_of
-from rocking.model.validation import Refusal, Text, instance, refuse_if
+from rocking.model.validation import ContactLost, Refusal, Text, instance, refuse_if
 from rocking.model.verdict import Outcome
 from rocking.motion.branch_and_bound import NOTHING, Arcs, Array, Extreme, first_time, global_minimum
 from rocking.motion.march_loop import is_lossless, outcome_of, parameters, run
@@ -295,7 +295,7 @@ def check_sides(system: System, block: Block) -> None:
 
 def other_system(system: System, block: Block) -> System:
     """Return the system of the other equation under the same base motion: full, or slender with a/(g tan θcr)."""
-    angle = unrestrained(block, "block", "it has one equation of motion").critical_angle
+    angle = unrestrained(block, "block", "its equations of motion are not compared").critical_angle
     own = block.acceleration_unit_g if system.critical_angle is None else angle
     other = angle if system.critical_angle is None else math.tan(angle)
     forcing = system.forcing
@@ -374,9 +374,10 @@ def compared(motion: Trajectory) -> tuple[str, str]:
 
 
 def degrees_and_share(block: Block, angle: float) -> str:
-    """Return an angle in degrees and in units of the critical angle, of an unsymmetric block that of θ > 0."""
-    side = "" if block.left is None or block.wall else " of θ > 0"
-    return f"{block.degrees(angle):.4g}°, {angle:.4g} θcr{side}"
+    """Return an angle in degrees and in units of θcr, of an unsymmetric block that of θ > 0, and of a slender restrained one θu."""
+    side = " of θ > 0" if block.is_unsymmetric else ""
+    unit = "θu" if block.by_balance else "θcr"
+    return f"{block.degrees(angle):.4g}°, {angle:.4g} {unit}{side}"
 
 
 def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) -> tuple[Array, Array]:
@@ -384,7 +385,7 @@ def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) 
 
     Relative to the base, the centre of mass has the accelerations ``x'' = R (cos δ θ'' ± sin δ θ'²)`` and
     ``y'' = R (± sin δ θ'' − cos δ θ'²)``, with δ = θcr − |θ| and ± for the side. Then H/M = a_g + x'' and N/M = g + y''.
-    In units of g, R α²/g = MR²/Io. R and θcr are those of the side.
+    In units of g, R α²/g = MR²/Io. R and θcr are those of the side. On a base with the upward acceleration a_v, N/M = g + a_v + y''.
     """
     angle, velocity = motion.at(times)
     left = np.asarray(sides) < 0
@@ -394,7 +395,50 @@ def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) 
     centripetal = arm * (block.critical_angle**2 / block.inertia_ratio * velocity**2)
     push = block.acceleration_unit_g * motion.system.forcing.acceleration(times)
     sideways = push + np.cos(lean) * turning + sides * np.sin(lean) * centripetal
-    return sideways, 1 + sides * np.sin(lean) * turning - np.cos(lean) * centripetal
+    up = 1 + sides * np.sin(lean) * turning - np.cos(lean) * centripetal
+    if motion.system.vertical is not None:
+        up = up + motion.system.vertical.acceleration(times)
+    return sideways, up
+
+
+def check_contact(motion: Trajectory) -> None:
+    """Raise ContactLost for a motion under vertical acceleration in which weight or base reaction vanish before overturning is proved.
+
+    The weight, 1 + a_v, is linear between samples. The first time at which the base reaction vanishes is found by branch and bound over
+    the exact motion. A system without a block has no base reaction.
+    """
+    until = motion.duration if motion.overturning is None else motion.overturning.time
+    moving, resting, _ = split(motion, until)
+    block, vertical, forcing = motion.system.block, motion.system.vertical, motion.system.forcing
+    assert vertical is not None
+    begins = {"weight": weightless_from(vertical)}
+
+    def upward(times: Array, sides: Array) -> tuple[Array, Array]:
+        assert block is not None
+        return base_reaction(motion, block, times, sides)[1][None], np.ones(times.size)
+
+    if block is not None and not begins["weight"] <= until:
+        slow = forcing.time_scale
+        begins["base reaction"] = min(
+            first_time(upward, 0.0, moving, min(slow, 1)), first_time(upward, 0.0, resting, slow)
+        )
+    which = min(begins, key=lambda name: begins[name])
+    if begins[which] <= until:
+        at = f"τ = {begins[which]:.6g}" if block is None else f"t = {block.seconds(begins[which]):.6g} s"
+        raise ContactLost(f"the {which} vanishes at {at}: the block leaves the base")
+
+
+def weightless_from(vertical: PiecewiseLinear) -> float:
+    """Return the first time at which the base accelerates downwards with 1 g or more; infinite if it never does."""
+    weights = 1 + vertical.scale * vertical.values
+    gone = np.flatnonzero(weights <= 0)
+    if not gone.size:
+        return math.inf
+    first = int(gone[0])
+    if first == 0:
+        return 0.0
+    before, here = weights[first - 1], weights[first]
+    return float(vertical.step * (first - 1 + before / (before - here)))
 
 
 def impact_friction(motion: Trajectory, block: Block) -> Extreme:

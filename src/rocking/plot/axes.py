@@ -115,9 +115,13 @@ def level_label(level: Any) -> str:
     )
 
 
+def balance_symbol(block: Block | None) -> str:
+    """Return the symbol of the unit of angles: θcr, or the unstable balance θu of a slender restrained block."""
+    return r"\theta_\mathrm{u}" if block is not None and block.by_balance else r"\theta_\mathrm{cr}"
+
+
 def limit_label(limit: float, block: Block) -> str:
     """Return the event of exceeding a limit of |Θ|, in degrees."""
     if math.isinf(limit):
         return "overturning"
-    unit = r"\theta_\mathrm{cr}" if block.restrainer is None else r"\theta_\mathrm{u}"
-    return rf"$|\theta| > {block.degrees(limit):.3g}°$ (${limit:.3g}\,{unit}$)"
+    return rf"$|\theta| > {block.degrees(limit):.3g}°$ (${limit:.3g}\,{balance_symbol(block)}$)"

@@ -10,6 +10,7 @@ from itertools import combinations
 from pathlib import Path
 
 import numpy as np
+from attrs import evolve
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -78,7 +79,7 @@ class Scene:
         self.parts.append(Line2D([0], [-0.6 * deep], marker="v", color=style.IMPACT, markersize=8))
         self.centres = np.array([mass_centre(block, outline) for outline in self.outlines])
         self.centre = Line2D(*self.centres[:1].T, marker="o", color=style.MOTION, markersize=6)
-        if block.left is not None and block.wall is None:
+        if block.is_unsymmetric:
             self.parts.append(self.centre)
         feet = self.outlines[:, :2].mean(axis=1)
         self.restrainers = np.stack([np.zeros_like(feet) - (0.0, deep), feet], axis=1)
@@ -293,8 +294,7 @@ def schematic(ax: Axes | None = None, block: Block | None = None, *, lean: float
     if block.restrainer is not None:
         ax.add_line(restrainer_of(np.array([0.0, -0.16 * height]), tilted[:2].mean(axis=0)))
     _sides(ax, tilted, height, right=block.wall is not None)
-    both = block.left is not None and block.wall is None
-    _centre(ax, tilted, mass_centre(block, tilted), height, both=both)
+    _centre(ax, tilted, mass_centre(block, tilted), height, both=block.is_unsymmetric)
     _angles(ax, tilted, height, block, angle)
     for corner, name in ((tilted[1], "$O$"), (tilted[0], "$O'$")):
         ax.plot(*corner, "o", color=style.INK, markersize=3.5)
@@ -363,13 +363,12 @@ def _angles(ax: Axes, tilted: NDArray, height: float, block: Block, angle: float
     )
     side = 90.0 - math.degrees(angle)
     right, left = map(math.degrees, block.critical_angles)
-    both = block.left is not None and block.wall is None
-    own = r"\theta_\mathrm{cr}" if not both else r"\theta_{\mathrm{cr},1}"
+    own = r"\theta_{\mathrm{cr},1}" if block.is_unsymmetric else r"\theta_\mathrm{cr}"
     arcs = [
         (pivot, 0.72 * height, side, 90.0, r"$\theta$", SHAKEN),
         (pivot, 0.36 * height, side, side + right, f"${own}$", style.MOTION),
     ]
-    if both:
+    if block.is_unsymmetric:
         arcs.append((tilted[0], 0.36 * height, side - left, side, r"$\theta_{\mathrm{cr},2}$", style.MOTION))
     for pivot, radius, side, last, name, colour in arcs:
         ax.add_patch(
@@ -514,7 +513,7 @@ class _Film:
     """Frames of a motion at the instants `times` (τ): a scene above the time history, with a moving dot."""
 
     def __init__(self, motion: Motion, block: Block | None, times: NDArray, seconds: float) -> None:
-        body = block or in_units_of(motion.block, NOMINAL)
+        body = evolve(block or in_units_of(motion.block, NOMINAL), wall=motion.system.wall)
         self.times, self.units = times, units_of(block)
         flat = body.angle(degrees=90)
         # a fallen block stays down: the motion is evaluated only up to the end of the fall
@@ -536,7 +535,8 @@ class _Film:
             curve.set_data(time, np.clip(angle, self.units.angle(-flat), self.units.angle(flat)))
             below.set_xlim(self.units.time(times[0]), time[-1])
             most = 1.5 * min(max(motion.peak, 1.0), flat)
-            below.set_ylim(self.units.angle(-most), self.units.angle(most))
+            least = -most if motion.system.wall is None else -0.05 * most
+            below.set_ylim(self.units.angle(least), self.units.angle(most))
         self.cursor = below.axvline(0.0, color=style.IMPACT, linewidth=style.LINE, animated=True)
         (self.dot,) = below.plot([], [], "o", color=style.IMPACT, markersize=7, animated=True, zorder=5)
         self.reading = self._write(0.02, "", style.TEXT + 4, ha="left", animated=True)

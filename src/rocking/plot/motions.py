@@ -16,7 +16,7 @@ from rocking.model.validation import Refusal, WrongType, instance, refuse_if, wi
 from rocking.model.verdict import Outcome
 from rocking.motion.motion import Motion, end_shown, fallen, has_cycles
 from rocking.plot import figures, style
-from rocking.plot.axes import Units, units_of
+from rocking.plot.axes import Units, balance_symbol, units_of
 from rocking.plot.sections import section
 
 SAMPLES_PER_TIME = 64
@@ -211,7 +211,7 @@ def _outcome(motion: Motion) -> str:
         return {Outcome.AT_REST: "comes to rest", Outcome.BOUNDED: "rocks until the end"}[motion.outcome]
     if motion.system.critical_angle is not None:
         return "overturns, lies flat at the end"
-    return rf"overturns, drawn to {fallen(motion):g} $\theta_\mathrm{{cr}}$"
+    return f"overturns, drawn to {fallen(motion):g} ${balance_symbol(motion.system.block)}$"
 
 
 def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
@@ -264,16 +264,16 @@ def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Blo
 
 
 def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right: bool) -> None:
-    """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it."""
+    """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it; none on the side of a wall."""
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
-        left = 1.0 if system.left is None or system.wall else system.left.angle_ratio
-        restrained = system.block is not None and system.block.restrainer is not None
+        left = 1.0 if system.left is None else 0.0 if system.wall else system.left.angle_ratio
+        restrained = system.block is not None and system.block.by_balance
         name = "unstable balance" if restrained else "critical angle"
         levels, colour, dashes = (left, 1.0), style.GUIDE, "dotted"
     else:
         levels, colour, dashes, name = (system.braces.angle,) * 2, style.BRACE, "dashed", "braces"
-    if largest > 0.5 * min(levels):
+    if largest > 0.5 * min(filter(None, levels)):
         _pair(ax, tuple(map(units.angle, levels)), colour, dashes, name, at_right=at_right)
 
 

@@ -142,6 +142,8 @@ def _number(place: str, head: str, cell: str) -> float:
 
 
 ALLOWED = "be a folder, a table with a column 'file', or paths of record files"
+ONE_FOR_EACH = " for all files that do not state it; a table with a column {!r} gives it for each file"
+"""Remedy for several files of which one lacks an argument."""
 LEFT_OUT = ("readme", "license", "licence")
 """Beginnings of names of files that accompany records: they state their source and terms."""
 OTHER_QUANTITIES = (".vt2", ".dt2", "_searchresults.csv")
@@ -278,7 +280,8 @@ def _of_files(paths: Sequence[Path], values: dict[str, Any], remedy: str = "") -
         try:
             motions = _of_file(path, values) if len(paths) > 1 else read_ground_motions(path, **values)
         except RecordError as error:
-            raise RecordError(f"{error}{_of_several(error) if len(paths) > 1 else ''}{remedy}") from error
+            several = ONE_FOR_EACH.format(error.argument) if error.argument and len(paths) > 1 else ""
+            raise RecordError(f"{error}{several}{remedy}") from error
         result += _members(motions, path.name if names[path.name] == 1 else path.as_posix())
     return result
 
@@ -288,20 +291,9 @@ def _of_file(path: Path, values: dict[str, Any]) -> tuple[GroundMotion, ...]:
     try:
         return read_ground_motions(path, **values)
     except RecordError as error:
-        stated = re.search(r"do not give (units|step)$", str(error))
-        if stated is None:
+        if values.get(error.argument) is None:
             raise
-        return _of_file(path, values | {stated[1]: None})
-
-
-def _of_several(error: RecordError) -> str:
-    """Return the remedy for a unit or a step that a file lacks; empty for another error."""
-    for name in ("units", "step"):
-        if re.search(rf"for example {name}=\S+$", str(error)):
-            return (
-                f" for all files that do not state it; a table with a column {name!r} gives it for each file"
-            )
-    return ""
+        return _of_file(path, values | {error.argument: None})
 
 
 def _members(

@@ -54,7 +54,7 @@ class PrintedTimes:
         """
         if given is None:
             if self.step is None:
-                raise RecordError(self.fault)
+                raise RecordError(self.fault, "step")
             return samples, self.step, "", self.doubt
         if self.low <= given <= self.high or given == self.step:
             return samples, given, "", ""

@@ -219,8 +219,9 @@ def stated_once(place: str, argument: str, stated: Any, value: Any, what: str, e
     if stated is None and value is None:
         example_text = repr(example) if argument == "units" else example
         raise RecordError(
-            f"{place}: the file does not state {what}; give it, for example {argument}={example_text}"
+            f"{place}: the file does not state {what}; give it, for example {argument}={example_text}",
+            argument,
         )
     if stated is not None and value is not None:
-        raise RecordError(f"{place}: the file states {what}, {stated}; do not give {argument}")
+        raise RecordError(f"{place}: the file states {what}, {stated}; do not give {argument}", argument)
     return value if stated is None else stated

@@ -9,7 +9,9 @@ from itertools import pairwise, starmap
 import numpy as np
 
 from rocking.kernels import system as numbers
+from rocking.kernels.block.restrained import restrained_under_pulse, restrained_under_samples
 from rocking.kernels.motion import finite_motion, march
+from rocking.kernels.restrainer import restrainer_of
 from rocking.model.forcing import SINES, PiecewiseLinear, Pulse
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.quantity import LEFT_QUANTITIES
@@ -18,7 +20,7 @@ from rocking.model.restitution import Scatter
 from rocking.model.verdict import Outcome
 from rocking.motion.march_loop import scatter_of
 from rocking.survey.measurement import Arrays, Measurement, Variable
-from rocking.survey.spec import Left, Pulses, Runs, motion_spec
+from rocking.survey.spec import UNRESTRAINED, Left, Pulses, Ratios, Runs, motion_spec
 
 METHOD = 9
 """Version of the method; a change of the results increases it."""
@@ -114,7 +116,16 @@ def endings_of_runs(runs: Runs, options: Mapping[str, int], stop: np.ndarray) ->
         )
         base = motion.normalised(1.0, alpha)
         inputs["scale"][part] = base.scale * runs.factor[part]
-        p = sampled(base, full=runs.full, left=runs.left, place=part.start, law=law, scatter=scatter)
+        p = sampled(
+            base,
+            full=runs.full,
+            left=runs.left,
+            place=part.start,
+            law=law,
+            scatter=scatter,
+            restrainer=runs.restrainer,
+            critical_angle=float(runs.slenderness[part.start]),
+        )
         if not finite_motion.run_batch(p, inputs[part], with_peak, rows[part], stop):
             return None
     return answers(rows, with_peak=with_peak)
@@ -148,14 +159,21 @@ def sampled(
     place: int = 0,
     law: np.ndarray = numbers.NO_LAW,
     scatter: Scatter | None = None,
+    restrainer: Ratios = UNRESTRAINED,
+    critical_angle: float = 1.0,
 ) -> numbers.AnySampledParameters:
     """Return parameters with the tables of a base motion, for runs of any blocks of one kind and law of restitution.
 
     Unsymmetric blocks have the ratio of the frequency parameters of that at a place: their left sides have tables of their own.
+    Restrained blocks have those of the balance at a critical angle in rad.
     """
     tables, length = numbers.tables_of(base.values, base.step), numbers.CYCLE * base.step
     block = _any_block(full=full, left=left, place=place, law=law, scatter=scatter)
-    return numbers.sampled_system(block, tables, 1.0, length)
+    free = numbers.sampled_system(block, tables, 1.0, length)
+    if restrainer == UNRESTRAINED:
+        return free
+    own = restrainer_of(critical_angle, *restrainer)
+    return restrained_under_samples(free, own, numbers.tables_of(base.values, base.step * own.rate))
 
 
 def _any_block(
@@ -218,16 +236,26 @@ def _sines(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
         math.tau * form.turns / runs.duration,
         numbers.within_a_turn(form.phase),
     )
-    kind = a_pulse(full=runs.full, left=runs.left, law=runs.law, scatter=runs.scatter)
+    kind = a_pulse(
+        full=runs.full, left=runs.left, law=runs.law, scatter=runs.scatter, restrainer=runs.restrainer
+    )
     return finite_motion.run_pulses(kind, pulses, True, rows, stop)
 
 
 def a_pulse(
-    *, full: bool, left: Left, law: np.ndarray = numbers.NO_LAW, scatter: Scatter | None = None
+    *,
+    full: bool,
+    left: Left,
+    law: np.ndarray = numbers.NO_LAW,
+    scatter: Scatter | None = None,
+    restrainer: Ratios = UNRESTRAINED,
 ) -> numbers.AnyPulseParameters:
     """Return parameters of any pulse, which give the kernel the kind of block and its law of restitution."""
     pulse = {"amplitude": 1.0, "frequency": 1.0, "phase": 0.0, "duration": 1.0, "cycle_length": 1.0}
-    return numbers.pulse_system(_any_block(full=full, left=left, law=law, scatter=scatter), **pulse)
+    free = numbers.pulse_system(_any_block(full=full, left=left, law=law, scatter=scatter), **pulse)
+    if restrainer == UNRESTRAINED:
+        return free
+    return restrained_under_pulse(free, restrainer_of(1.0, *restrainer))
 
 
 def _sampled(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
@@ -241,7 +269,15 @@ def _sampled(runs: Pulses, rows: np.ndarray, stop: np.ndarray) -> bool:
     for number, duration in enumerate(durations.tolist()):
         own = np.flatnonzero(places == number)
         base = Pulse(runs.kind, amplitude=1.0, duration=duration).samples
-        p = sampled(base, full=runs.full, left=runs.left, law=runs.law, scatter=runs.scatter)
+        p = sampled(
+            base,
+            full=runs.full,
+            left=runs.left,
+            law=runs.law,
+            scatter=runs.scatter,
+            restrainer=runs.restrainer,
+            critical_angle=float(runs.critical_angle[own[0]]),
+        )
         part = np.empty(own.size, finite_motion.ENDING_ROW)
         if not finite_motion.run_batch(p, inputs[own], True, part, stop):
             return False

@@ -185,7 +185,7 @@ def fragility(
     runs = of_block(data, spec, chosen, block).assign_attrs(replicates=replicates, seed=seed)
     count *= runs.sizes.get("polarity", 1)
     weights = two_level_weights(len(chosen), count, replicates, np.random.default_rng(seed))
-    return _estimated(runs.load(), thresholds, weights, np.argsort(marks), block)
+    return _estimated(runs.load(), thresholds, weights, np.argsort(marks), spec.own_units(block))
 
 
 def _limits(values: Any) -> np.ndarray:

@@ -115,7 +115,7 @@ def incremental_dynamic_analysis(
         normalised_by=normalised_by,
     )
     data = run_survey(spec, ending(TITLE), store, executor, progress=progress, repair=repair)
-    return IncrementalDynamicAnalysis(of_block(data, spec, chosen, block), block)
+    return IncrementalDynamicAnalysis(of_block(data, spec, chosen, block), spec.own_units(block))
 
 
 def block_spec(

@@ -12,7 +12,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.kernels.motion import finite_motion
-from rocking.model.block import Block
+from rocking.model.block import Block, unit_for
 from rocking.model.block_formulas import with_unit
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.package import VERSION
@@ -31,7 +31,7 @@ from rocking.survey.ending_measures import (
 from rocking.survey.incremental_dynamic_analysis import block_spec, of_block, with_polarity
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.run_survey import run_survey
-from rocking.survey.spec import MotionSpec, Values, left_of
+from rocking.survey.spec import UNRESTRAINED, MotionSpec, Values, left_of, ratios_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -175,6 +175,7 @@ def overturning_set(
         model=model,
         normalised_by=normalised_by,
     )
+    block = spec.own_units(block)
     steps = spec.extended(SwitchSpec, block=block, grid=spec.axes["level"])
     data = run_survey(steps, MEASURE, store, executor, progress=progress, repair=repair)
     return OverturningSet(_dataset(of_block(data, spec, chosen, block).load(), spec, chosen), chosen, block)
@@ -202,11 +203,19 @@ def runs_of(spec: SwitchSpec, number: int, stop: np.ndarray) -> Run:
     left = left_of(
         {name: np.array([value]) for name, value in spec.fixed.items()}, np.array([block.restitution])
     )
-    law = np.array(spec.law.rows).reshape(-1, 2)
-    p = sampled(motion.normalised(1.0, rate), full=spec.full, left=left, law=law, scatter=spec.law.scatter)
+    law, ratios = np.array(spec.law.rows).reshape(-1, 2), ratios_of(spec.fixed) if spec.full else UNRESTRAINED
+    p = sampled(
+        motion.normalised(1.0, rate),
+        full=spec.full,
+        left=left,
+        law=law,
+        scatter=spec.law.scatter,
+        restrainer=ratios,
+        critical_angle=slenderness,
+    )
     restitution = law[:, 1].max() if spec.law.rows else block.restitution
     stream = spec.streams(np.array([number]), np.zeros(1, np.int64))
-    unit = with_unit(block, spec.normalised_by).acceleration(1.0)
+    unit = with_unit(block, unit_for(block, spec.normalised_by, spec.model)).acceleration(1.0)
 
     def run(levels: np.ndarray) -> Arrays:
         polarity = spec.fixed["polarity"]

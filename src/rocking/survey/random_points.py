@@ -15,6 +15,7 @@ from rocking.model.ground_motion import GroundMotion
 from rocking.model.progress import Bar
 from rocking.model.quantity import AMPLITUDE, LEFT_QUANTITIES, PERIOD, SYSTEM_QUANTITIES
 from rocking.model.record_set import RecordSet
+from rocking.model.system import LeftSide
 from rocking.model.validation import Refusal, Text, WrongType, reals, whole
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.memory import Memory
@@ -220,8 +221,8 @@ def _of_record(
         each = block.resized(float(height[number]), float(width[number]))
         kept, left = (min(max(e + deviation, 0.0), 1.0) for e in (each.restitution, each.left_restitution))
         row = [each.radius, each.critical_angle, kept]
-        if each.left is not None and each.wall is None:
-            row += [each.left.angle_ratio, each.left.frequency_ratio, left]
+        if isinstance(side := each.left, LeftSide):
+            row += [side.angle_ratio, side.frequency_ratio, left]
         rows.append(row)
     return np.array(rows)
 

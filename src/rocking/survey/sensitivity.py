@@ -130,6 +130,7 @@ def sensitivity(
     spec = unchanged.extended(ChangedMotionSpec, {"change": np.arange(1.0 + len(CHANGES))})
     measure = ending(TITLE, with_peak=False)
     data = run_survey(spec, measure, store, executor, progress=progress, repair=repair)
+    block = spec.own_units(block)
     return _summed_up(of_block(data, spec, chosen, block).load(), order, random, block)
 
 

@@ -13,18 +13,20 @@ import numpy as np
 from attrs import evolve, field, fields, frozen
 
 from rocking.kernels import system as numbers
-from rocking.model.block import INERTIA_RATIOS, RECTANGLE, Block
+from rocking.model.block import INERTIA_RATIOS, RECTANGLE, Block, unit_for
 from rocking.model.block_formulas import (
     GRAVITY,
     acceleration_unit_g,
     frequency_parameter,
     housner_restitution,
+    with_unit,
 )
 from rocking.model.forcing import SINES, Pulse
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.quantity import CRITICAL_ANGLE, LEFT_QUANTITIES, RUN_QUANTITIES, SYSTEM_QUANTITIES
 from rocking.model.record_set import Intensity, RecordSet, intensity_of
 from rocking.model.restitution import Restitution, Scatter, check_model, check_uniform, scatter_attributes
+from rocking.model.restrainer import RestrainedUnits, restrained_units
 from rocking.model.system import (
     MODELS,
     NO_BRACES,
@@ -422,6 +424,21 @@ def left_of(arguments: Values, restitution: np.ndarray) -> Left:
     return Left(angle, frequency, left_restitution, True)
 
 
+class Ratios(NamedTuple):
+    """Ratios κ and ρ of the restrainer of full blocks; 0 without it."""
+
+    stiffness: float
+    prestress: float
+
+
+UNRESTRAINED = Ratios(0.0, 0.0)
+
+
+def ratios_of(fixed: Mapping[str, float]) -> Ratios:
+    """Return the ratios among the fixed quantities of a survey."""
+    return Ratios(fixed.get("stiffness_ratio", 0.0), fixed.get("prestress_ratio", 0.0))
+
+
 class Runs(NamedTuple):
     """Runs at n points, each an array (n,), and the motions by their number."""
 
@@ -440,6 +457,7 @@ class Runs(NamedTuple):
     law: Restitution
     speed_unit: np.ndarray  # rad/s, of a normalised velocity
     stream: np.ndarray  # number of the sequence of deviations of the restitution
+    restrainer: Ratios
 
 
 @frozen(eq=False)
@@ -466,7 +484,8 @@ class MotionSpec(SurveySpec):
     @property
     def comment(self) -> str:  # type: ignore[override]
         """Unit of a peak, and what does not count."""
-        unit = "angle of unstable balance" if "stiffness_ratio" in self.fixed else "critical angle"
+        slender = "stiffness_ratio" in self.fixed and not self.full
+        unit = "angle of unstable balance" if slender else "critical angle"
         return f"A peak is in units of the {unit}; impacts of chattering sequences do not count."
 
     @property
@@ -507,8 +526,7 @@ class MotionSpec(SurveySpec):
         own = np.array([self.intensities[number] for number in record.tolist()])
         factor = self.measure.factor(arguments["level"], own, alpha, slenderness)
         factor = factor * arguments["polarity"] / self.acceleration_units(slenderness)
-        if "stiffness_ratio" in arguments:
-            alpha, slenderness = self.restrained(alpha, slenderness)
+        alpha, slenderness = alpha * self.units.rate, slenderness * self.units.angle
         return Runs(
             self.motions,
             record,
@@ -523,17 +541,24 @@ class MotionSpec(SurveySpec):
             self.law,
             slenderness * alpha,
             self.streams(record, np.zeros_like(record)),
+            ratios_of(self.fixed) if self.full else UNRESTRAINED,
         )
 
     def acceleration_units(self, slenderness: np.ndarray) -> np.ndarray:
         """Return the base accelerations in m/s² that are 1 if they are normalised, for critical angles in rad."""
-        units = GRAVITY * _each(acceleration_unit_g, slenderness, self.normalised_by)
-        return units * (1.0 + self.fixed["prestress_ratio"]) if "prestress_ratio" in self.fixed else units
+        own = _each(acceleration_unit_g, slenderness, self.normalised_by)
+        return GRAVITY * (own * self.units.acceleration)
 
-    def restrained(self, alpha: np.ndarray, slenderness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the inverse unit of time and the unit of angles of restrained blocks, from those of the free ones."""
-        kappa, rho = self.fixed["stiffness_ratio"], self.fixed["prestress_ratio"]
-        return alpha * math.sqrt(1.0 - kappa), slenderness * (1.0 + rho) / (1.0 - kappa)
+    @property
+    def units(self) -> RestrainedUnits:
+        """Units of the blocks over those of free ones: other ones for slender restrained blocks."""
+        return restrained_units(*(UNRESTRAINED if self.full else ratios_of(self.fixed)))
+
+    def own_units(self, block: Block) -> Block:
+        """Return a block with the units of the survey if it is restrained."""
+        if block.restrainer is None:
+            return block
+        return with_unit(block, unit_for(block, self.normalised_by, self.model))
 
     def streams(self, record: np.ndarray, sample: np.ndarray) -> np.ndarray:
         """Return the numbers (n,) of the sequences of deviations: one for each record and sample, at all levels alike."""
@@ -658,7 +683,7 @@ def _each(formula: Any, values: np.ndarray, other: Any) -> np.ndarray:
 
 
 class Pulses(NamedTuple):
-    """Pulses at n points, each an array (n,)."""
+    """Pulses at n points, each an array (n,), and what all blocks have."""
 
     kind: str
     amplitude: np.ndarray
@@ -669,6 +694,7 @@ class Pulses(NamedTuple):
     left: Left
     law: np.ndarray  # (m, 2), rows of the coefficient of restitution over the speed
     scatter: Scatter | None
+    restrainer: Ratios
 
 
 def turns(kind: str) -> float:
@@ -697,7 +723,8 @@ class PulseSpec(SurveySpec):
             restitution = np.full(duration.size, law[:, 1].max())
         left = left_of(arguments, restitution)
         amplitude = arguments["amplitude"]
-        return Pulses(self.kind, amplitude, duration, restitution, angle, self.full, left, law, self.scatter)
+        own = self.full, left, law, self.scatter, ratios_of(self.fixed)
+        return Pulses(self.kind, amplitude, duration, restitution, angle, *own)
 
     def described(self) -> dict[str, Any]:
         """Return the kind of the pulse and the quantities that do not vary, by name."""
@@ -720,6 +747,8 @@ def pulse_spec(system: System, axes: Mapping[str, Any]) -> PulseSpec:
     own = {"restitution": system.restitution} | left_quantities(system.left)
     if system.critical_angle is not None:
         own["critical_angle"] = system.critical_angle
+    if system.is_restrained:
+        own |= {"stiffness_ratio": system.stiffness_ratio, "prestress_ratio": system.prestress_ratio}
     required = {"amplitude", "frequency"}
     named = [name for name in axes if axes[name] is not None or name in required]
     checked = {

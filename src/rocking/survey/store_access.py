@@ -20,7 +20,17 @@ UNFINISHED = re.compile(r"(zarr|\d+)\.[0-9a-f]{32}\.partial")
 
 
 class StoreError(OSError):
-    """Store that cannot be written, is in use by another run or is damaged; the message states the remedy."""
+    """Store that cannot be written, is in use by another run or is damaged; the message states the remedy.
+
+    Attributes
+    ----------
+    argument : str
+        "store" if the value of this argument, with which the message begins, is invalid; empty for any other error.
+    """
+
+    def __init__(self, message: str, argument: str = "") -> None:
+        super().__init__(message)
+        self.argument = argument
 
 
 def check_store(path: str | os.PathLike[str]) -> Path:
@@ -30,11 +40,12 @@ def check_store(path: str | os.PathLike[str]) -> Path:
     """
     place, folder = _place(path), Path(path)
     if not (place / ROOT).is_file():
-        check_folder("store", folder)
+        with _of_argument():
+            check_folder("store", folder)
     names = {each.name for each in place.iterdir()} if place.exists() else set()
     held = {name for name in names if not UNFINISHED.fullmatch(name)}
     if held and ROOT not in held:
-        raise StoreError(something_else(folder, f"a folder that contains {min(held)!r}"))
+        raise something_else(folder, f"a folder that contains {min(held)!r}")
     return folder
 
 
@@ -42,10 +53,21 @@ def _place(path: str | os.PathLike[str]) -> Path:
     """Return the place of a store, a folder or nothing yet; TypeError or OSError for anything else."""
     if not isinstance(path, str | os.PathLike) or not os.fspath(path):
         raise WrongType("store", "be the path of a folder", path)
-    place = resolve_path("store", Path(path))
+    with _of_argument():
+        place = resolve_path("store", Path(path))
     if place.exists() and not place.is_dir():
-        raise StoreError(f"store must be the path of a folder; got {formatted_path(path)}, which is a file")
+        got = f"{formatted_path(path)}, which is a file"
+        raise StoreError(f"store must be the path of a folder; got {got}", "store")
     return place
+
+
+@contextmanager
+def _of_argument() -> Iterator[None]:
+    """Convert an error of a path to a StoreError that names the argument."""
+    try:
+        yield
+    except OSError as error:
+        raise StoreError(str(error), "store") from error
 
 
 def store_in(path: str | os.PathLike[str] | None, name: str, number: int) -> Path | None:
@@ -62,13 +84,14 @@ def store_in(path: str | os.PathLike[str] | None, name: str, number: int) -> Pat
     others = sorted(each.name for each in names if not re.fullmatch(rf"{name}-\d+", each.name))
     if others:
         what = "the store of another survey" if ROOT in others else f"a folder that contains {others[0]!r}"
-        raise StoreError(something_else(Path(path), what))
+        raise something_else(Path(path), what)
     return Path(path) / f"{name}-{number}"
 
 
-def something_else(folder: Path, what: str) -> str:
-    """Return the message for a folder that is not a store of a survey."""
-    return f"store must be a new folder, or the folder of an earlier survey; got {formatted_path(folder)}, which is {what}"
+def something_else(folder: Path, what: str) -> StoreError:
+    """Return the error for a folder that is not a store of a survey."""
+    got = f"{formatted_path(folder)}, which is {what}"
+    return StoreError(f"store must be a new folder, or the folder of an earlier survey; got {got}", "store")
 
 
 def place_of(folder: Path) -> tuple[int, int] | None:

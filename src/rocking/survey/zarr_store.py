@@ -237,7 +237,7 @@ class Store:
             root = zarr.open_group(self.files, mode="r+", zarr_format=3, use_consolidated=False)
         stored: Any = root.attrs.get(NAME)
         if stored is None:
-            raise StoreError(something_else(self.path, "a Zarr store of other data"))
+            raise something_else(self.path, "a Zarr store of other data")
         with reading(self.path):
             check_described(stored)
         check_same(str(self.path), stored, mine)

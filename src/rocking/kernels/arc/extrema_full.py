@@ -5,7 +5,7 @@ from rocking.kernels.arc.arc import Arc, with_dip, with_low, within_reach
 from rocking.kernels.arc.first_zero_full import first_zero_of_step
 from rocking.kernels.arc.full_series import bend_0, derivative, divided_1, jerk
 from rocking.kernels.arc.full_step import state_in, step_from
-from rocking.kernels.contract import acceleration_of, drive_later, largest_within
+from rocking.kernels.contract import acceleration_of, drive_later, largest_within, parts_at_base, weight_of
 from rocking.kernels.event_kinds import BRACE
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.system import Full, side_of
@@ -52,7 +52,8 @@ def to_turn(step, h, noise):
 @kernel(inline=True)
 def noise_at(p, side, drive):
     """Return the rounding error of u''."""
-    return NOISE * (side_of(p.block, side).press + abs(acceleration_of(p, drive)))
+    parts = parts_at_base(p, side, abs(weight_of(p, drive)))
+    return NOISE * (parts + abs(acceleration_of(p, drive)))
 
 
 @kernel

@@ -15,6 +15,7 @@ from rocking.kernels.arc.full_series import (
     short_cosine_series,
     short_linear_series,
 )
+from rocking.kernels.base.biaxial import Biaxial
 from rocking.kernels.base.cosine import Cosine, HarmonicConstants, HarmonicDrive, Pulse, PulseDrive
 from rocking.kernels.base.samples import (
     SampledConstants,
@@ -230,13 +231,13 @@ def transfer_under_samples(p, side, slope, sine, cosine, drive):
     return linear_transfer(slope, sine, cosine, size * (start + rate * drive.offset), size * rate)
 
 
-@body(contract.smooth_time, Full, Samples, inline=True)
+@body(contract.smooth_time, Full, Samples, Biaxial, inline=True)
 def time_to_sample(p, drive):
     """Provide ``contract.smooth_time``: to the next sample."""
     return max(p.forcing.tables.step - drive.offset, 0.0) if drive.index < last_index(p) else math.inf
 
 
-@body(contract.drive_later, Full, Samples, inline=True)
+@body(contract.drive_later, Full, Samples, Biaxial, inline=True)
 def place_later(p, drive, time, to_corner):
     """Provide ``contract.drive_later``."""
     if to_corner:
@@ -244,19 +245,19 @@ def place_later(p, drive, time, to_corner):
     return SampledDrive(drive.index, drive.offset + time)
 
 
-@body(contract.drive_on_clock, Full, Samples, inline=True)
+@body(contract.drive_on_clock, Full, Samples, Biaxial, inline=True)
 def place_on_clock(p, cycle, start):
     """Provide ``contract.drive_on_clock``."""
     return place_at(p, 0, max(cycle * p.clock.cycle_length + start, 0.0))
 
 
-@body(contract.largest_ahead, Full, Samples, inline=True)
+@body(contract.largest_ahead, Full, Samples, Biaxial, inline=True)
 def largest_sample(p, side, drive):
     """Provide ``contract.largest_ahead``: the largest of all samples, 0 after the last."""
     return abs(p.forcing.scale) * p.forcing.tables.largest if drive.index < last_index(p) else 0.0
 
 
-@body(contract.largest_push, Full, Samples, inline=True)
+@body(contract.largest_push, Full, Samples, Biaxial, inline=True)
 def largest_push_of_samples(p):
     """Provide ``contract.largest_push``."""
     return abs(p.forcing.scale) * p.forcing.tables.largest
@@ -275,13 +276,13 @@ def largest_near_samples(p, drive, radius):
     return largest_of_samples(p, drive, radius)
 
 
-@body(contract.drive_after_event, Full, Samples, inline=True)
+@body(contract.drive_after_event, Full, Samples, Biaxial, inline=True)
 def place_of_event(p, start, coming):
     """Provide ``contract.drive_after_event``."""
     return coming.drive
 
 
-@body(contract.constants_at, Full, Samples, inline=True)
+@body(contract.constants_at, Full, Samples, Biaxial, inline=True)
 def no_constants(p, start, drive):
     """Provide ``contract.constants_at``."""
     return SampledConstants(0.0, 0.0)

@@ -4,6 +4,9 @@ With w = alpha (1 - u), on side sigma,
 
     w'' = sin w + sigma alpha A(t) cos w.
 
+On a base that also moves vertically sin w is multiplied by the weight, f0 + lift t. A restrainer (``arc.full_restrained``) adds a
+constant to sigma alpha A, and m = B cos((alpha - w)/2) to w''. With n = B sin((alpha - w)/2), m' = w' n/2 and n' = -w' m/2.
+
 S = sin w and C = cos w obey S' = w' C and C' = -w' S. A cosine A = g, with H = A sin(phase), obeys g' = -Omega H and H' = Omega g.
 So the coefficients follow one from another. A sum starts with what is known first, so that little is left to do when the last
 coefficient is there: this halves the time. The source of the kernels is
@@ -45,13 +48,15 @@ def total(terms: list[Term]) -> str:
     return f"fma({last.one}, {last.other}, {chain(early[0::2])} + {chain(early[1::2])})"
 
 
-def lines_of_block(later: Callable[[str, int], list[Term]], order: int) -> list[str]:
+def lines_of_block(
+    later: Callable[[str, int], list[Term]], order: int, weight: str = "", restrained: bool = False
+) -> list[str]:
     """Return the source lines that compute dk = k wk, k = 2, 3, ..., from w1, s0, c0 and the base acceleration.
 
     ``later`` gives the terms of the forcing without that of g0. tk = k sk and rk = -k ck are sums that wait for dk. So the next
-    one, d(k + 2), uses them at once.
+    one, d(k + 2), uses them at once. ``weight`` is the source of a factor of s, such as "f0 * ". If ``restrained``, w'' contains m.
     """
-    lines = ["d1 = w1", "d2 = fma(g0, c0, s0)"]
+    lines = ["d1 = w1", f"d2 = fma(g0, c0, {weight}s0)" + (" + m0" if restrained else "")]
     for k in range(1, order - 1):
         for name, other in (("t", "c"), ("r", "s")):
             lines.append(
@@ -60,9 +65,17 @@ def lines_of_block(later: Callable[[str, int], list[Term]], order: int) -> list[
         per = 1.0 / (k * (k + 1))
         lines += [
             f"s{k}, c{k} = t{k} * {1.0 / k!r}, r{k} * {-1.0 / k!r}",
-            f"d{k + 2} = fma(t{k}, {per!r}, fma(r{k}, g0 * {-per!r}, ({total(later('c', k))}) * {1.0 / (k + 1)!r}))",
+            f"d{k + 2} = fma({weight}t{k}, {per!r}, fma(r{k}, g0 * {-per!r}, ({total(later('c', k))}) * {1.0 / (k + 1)!r}))",
         ]
+        if restrained:
+            lines += [*half_angle_lines(k), f"d{k + 2} = fma(m{k}, {1.0 / (k + 1)!r}, d{k + 2})"]
     return lines
+
+
+def half_angle_lines(k: int) -> list[str]:
+    """Return the source of mk and nk."""
+    sums = [total([Term(j, f"d{j}", f"{other}{k - j}") for j in range(1, k + 1)]) for other in "nm"]
+    return [f"m{k}, n{k} = ({sums[0]}) * {0.5 / k!r}, ({sums[1]}) * {-0.5 / k!r}"]
 
 
 def straight_line(name: str, arguments: str, lines: list[str], document: str) -> Any:
@@ -84,15 +97,30 @@ def coefficients(order: int) -> str:
     )
 
 
-def cosine_lines(order: int = ORDER) -> list[str]:
-    """Return the source of the series under a cosine."""
+def wave_lines(order: int, first: str = "g0") -> list[str]:
+    """Return the source of the coefficients of a cosine, whose ``first`` one may be a part of g0."""
     lines = []
     for k in range(1, order - 1):
         lines += [
             f"g{k} = h{k - 1} * (frequency * {-1.0 / k!r})",
-            f"h{k} = g{k - 1} * (frequency * {1.0 / k!r})",
+            f"h{k} = {first if k == 1 else f'g{k - 1}'} * (frequency * {1.0 / k!r})",
         ]
-    return lines + lines_of_block(cosine_terms, order)
+    return lines
+
+
+def cosine_lines(order: int = ORDER) -> list[str]:
+    """Return the source of the series under a cosine."""
+    return wave_lines(order) + lines_of_block(cosine_terms, order)
+
+
+def restrained_cosine_lines(order: int = ORDER) -> list[str]:
+    """Return the source of the series of a restrained block under a cosine plus a constant push."""
+    return [*wave_lines(order, "(g0 - push)"), *lines_of_block(cosine_terms, order, "f0 * ", True)]
+
+
+def restrained_linear_lines(order: int = ORDER) -> list[str]:
+    """Return the source of the series of a restrained block under a + rate t."""
+    return lines_of_block(linear_terms, order, "f0 * ", True)
 
 
 def linear_lines(order: int = ORDER) -> list[str]:
@@ -110,14 +138,31 @@ def linear_terms(factor: str, k: int) -> list[Term]:
     return [Term(k - 1, "rate", f"{factor}{k - 1}")] if k else []
 
 
-def transfer_lines(later: Callable[[str, int], list[Term]]) -> list[str]:
+def biaxial_lines(order: int = ORDER) -> list[str]:
+    """Return the source of the series under a + rate t, with the weight f0 + lift t."""
+    return lines_of_block(biaxial_terms, order, "f0 * ")
+
+
+def biaxial_terms(factor: str, k: int) -> list[Term]:
+    """Return ``linear_terms``, with those of lift: of c that of lift s, and of s that of -lift c."""
+    if k == 0:
+        return []
+    lift = Term(k - 1, "lift", f"s{k - 1}") if factor == "c" else Term(k - 1, "-lift", f"c{k - 1}")
+    return [*linear_terms(factor, k), lift]
+
+
+def transfer_lines(
+    later: Callable[[str, int], list[Term]], weight: str = "", restrained: bool = False
+) -> list[str]:
     """Return the source of two solutions of x'' = (cos w - sigma alpha A sin w) x, the equation of small perturbations.
 
-    x starts with (x, x') = (1, 0), y with (0, 1). ``later`` gives the terms of the forcing without that of g0.
+    x starts with (x, x') = (1, 0), y with (0, 1). ``later`` gives the terms of the forcing without that of g0, and ``weight`` is a factor
+    of cos w. If ``restrained``, the factor of x contains n/2.
     """
     lines = ["x0, x1, y0, y1 = 1.0, 0.0, 0.0, 1.0"]
     for k in range(ORDER - 1):
-        lines.append(f"q{k} = c{k} - ({total([Term(k, 'g0', f's{k}'), *later('s', k)])})")
+        more = f" + 0.5 * n{k}" if restrained else ""
+        lines.append(f"q{k} = {weight}c{k} - ({total([Term(k, 'g0', f's{k}'), *later('s', k)])}){more}")
         for name in "xy":
             terms = total([Term(max(j, k - j - 2), f"q{j}", f"{name}{k - j}") for j in range(k + 1)])
             lines.append(f"{name}{k + 2} = ({terms}) * {1.0 / ((k + 1) * (k + 2))!r}")
@@ -137,6 +182,22 @@ short_cosine_series = series_kernel("short_cosine_series", "g0, h0, frequency", 
 linear_series = series_kernel("linear_series", "g0, rate", linear_lines, ORDER)
 short_linear_series = series_kernel("short_linear_series", "g0, rate", linear_lines, SHORT_ORDER)
 brief_linear_series = series_kernel("brief_linear_series", "g0, rate", linear_lines, BRIEF_ORDER)
+biaxial_series = series_kernel("biaxial_series", "g0, rate, f0, lift", biaxial_lines, ORDER)
+short_biaxial_series = series_kernel("short_biaxial_series", "g0, rate, f0, lift", biaxial_lines, SHORT_ORDER)
+brief_biaxial_series = series_kernel("brief_biaxial_series", "g0, rate, f0, lift", biaxial_lines, BRIEF_ORDER)
+restrained_cosine_series, short_restrained_cosine_series = (
+    series_kernel(
+        f"{name}restrained_cosine_series",
+        "g0, h0, push, frequency, f0, m0, n0",
+        restrained_cosine_lines,
+        order,
+    )
+    for name, order in (("", ORDER), ("short_", SHORT_ORDER))
+)
+restrained_series, short_restrained_series, brief_restrained_series = (
+    series_kernel(f"{name}restrained_series", "g0, rate, f0, m0, n0", restrained_linear_lines, order)
+    for name, order in (("", ORDER), ("short_", SHORT_ORDER), ("brief_", BRIEF_ORDER))
+)
 cosine_transfer = straight_line(
     "cosine_transfer",
     "w1, s0, c0, g0, h0, frequency",
@@ -148,6 +209,24 @@ linear_transfer = straight_line(
     "w1, s0, c0, g0, rate",
     [*linear_lines(), *transfer_lines(linear_terms)],
     "Return x2, x3, ... and y2, y3, ... of the solutions of ``transfer_lines`` under a linear acceleration.",
+)
+biaxial_transfer = straight_line(
+    "biaxial_transfer",
+    "w1, s0, c0, g0, rate, f0, lift",
+    [*biaxial_lines(), *transfer_lines(biaxial_terms, "f0 * ")],
+    "Return x2, x3, ... and y2, y3, ... of the solutions of ``transfer_lines`` under linear accelerations in two directions.",
+)
+restrained_cosine_transfer = straight_line(
+    "restrained_cosine_transfer",
+    "w1, s0, c0, g0, h0, push, frequency, f0, m0, n0",
+    [*restrained_cosine_lines(), *transfer_lines(cosine_terms, "f0 * ", True)],
+    "Return x2, x3, ... and y2, y3, ... of the solutions of ``transfer_lines`` for a restrained block under a cosine.",
+)
+restrained_transfer = straight_line(
+    "restrained_transfer",
+    "w1, s0, c0, g0, rate, f0, m0, n0",
+    [*restrained_linear_lines(), *transfer_lines(linear_terms, "f0 * ", True)],
+    "Return x2, x3, ... and y2, y3, ... of the solutions of ``transfer_lines`` for a restrained block under a linear acceleration.",
 )
 
 

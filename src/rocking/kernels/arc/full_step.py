@@ -12,16 +12,20 @@ bounds the acceleration on |t| = h. And cosh x is at most exp(x^2/2) <= 1/(1 - x
 import math
 from typing import NamedTuple
 
+from rocking.kernels import contract
 from rocking.kernels.arc.arc import Transfer
 from rocking.kernels.arc.full_series import ORDER, SHORT_ORDER, divided_1, short_divided_1, short_sizes, sizes
 from rocking.kernels.contract import (
+    acceleration_near,
+    acceleration_of,
     largest_near,
     largest_within,
     series_from,
     smooth_time,
     transfer_series,
+    weight_of,
 )
-from rocking.kernels.library.kernel import kernel
+from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.numerics.elementary import (
     exponential_bound,
     fma,
@@ -29,7 +33,7 @@ from rocking.kernels.numerics.elementary import (
     rough_log2,
     sine_and_cosine,
 )
-from rocking.kernels.system import side_of
+from rocking.kernels.system import Full, side_of
 
 # With it most bounds hold at once.
 TOLERANCE = 6e-18
@@ -85,12 +89,48 @@ def ends_at_corner(c, corner, order):
     return abs(c[order - 3]) * power <= TOLERANCE and abs(c[order - 2]) * (power * corner) <= TOLERANCE
 
 
-@kernel(inline=True)
-def error_bound(p, side, velocity, series, h, drive, truncation):
-    """Return the bound of the module's text of |u - p| up to a time h of a step.
+@body(contract.excess_push, Full, inline=True)
+def no_excess_push(p):
+    """Provide ``contract.excess_push``."""
+    return 0.0
 
-    M is at most w'' of the polynomial and the acceleration that it should have, on the circle. There |sin w| and |cos w| are
-    at most exp |w - w0|.
+
+@body(contract.stiffness, Full, inline=True)
+def stiffness(p, side, sine, cosine, drive):
+    """Provide ``contract.stiffness``, W cos w - sigma alpha a sin w with the weight W."""
+    return weight_of(p, drive) * cosine - side * p.block.critical_angle * acceleration_of(p, drive) * sine
+
+
+@body(contract.growth_of, Full, inline=True)
+def growth_of(p, stiffness):
+    """Provide ``contract.growth_of``: the block falls away from its unstable balance."""
+    return stiffness
+
+
+@body(contract.flat_time, Full, inline=True)
+def flat_time(p, side, step, drive):
+    """Provide ``contract.flat_time``: a block that lies flat does not rise again."""
+    return math.inf
+
+
+@body(contract.limits_within, Full, inline=True)
+def no_limits(p, arc, step, drive, h, end, extremes):
+    """Provide ``contract.limits_within``: minima alone count."""
+    return extremes
+
+
+@body(contract.acceleration_near, Full, inline=True)
+def acceleration_near_place(p, side, sine, change, drive, radius):
+    """Provide ``contract.acceleration_near``: |sin w| and |cos w| are at most exp |w - w0|."""
+    push = side_of(p.block, side).stiffness * (1.0 + p.block.critical_angle * largest_near(p, drive, radius))
+    return push * exponential_bound(change)
+
+
+@kernel(inline=True)
+def error_bound(p, side, velocity, series, sine, h, drive, truncation):
+    """Return the bound of the module's text of |u - p| up to a time h of a step, which starts where r^2 sin w = ``sine``.
+
+    M is at most w'' of the polynomial and the acceleration that it should have, on the circle.
     """
     alpha, n, radius = p.block.critical_angle, truncation.order, truncation.radius * h
     stiffness = side_of(p.block, side).stiffness
@@ -98,8 +138,7 @@ def error_bound(p, side, velocity, series, h, drive, truncation):
         change, bend = short_sizes(velocity, series, radius)
     else:
         change, bend = sizes(velocity, series, radius)
-    push = stiffness * (1.0 + alpha * largest_near(p, drive, radius))
-    largest = alpha * bend + push * exponential_bound(alpha * change)
+    largest = alpha * bend + acceleration_near(p, side, sine, alpha * change, drive, radius)
     half = 0.5 * (stiffness * (1.0 + alpha * largest_near(p, drive, h))) * h * h
     if half >= 1.0:
         return math.inf
@@ -136,7 +175,7 @@ def step_from(p, side, angle, velocity, drive):
     if corner < NEAR:
         c = series_at(p, side, angle, velocity, sine, cosine, drive, True)
         near = ends_at_corner(c, corner, SHORT_ORDER)
-        if near and error_bound(p, side, velocity, c, corner, drive, SHORT) <= ERROR:
+        if near and error_bound(p, side, velocity, c, sine, corner, drive, SHORT) <= ERROR:
             return Step(angle, velocity, c, corner, True, True, sine, cosine)
     c = series_at(p, side, angle, velocity, sine, cosine, drive, False)
     if corner < 1.0 and ends_at_corner(c, corner, ORDER):
@@ -146,7 +185,7 @@ def step_from(p, side, angle, velocity, drive):
             min(log_time_of_term(c[ORDER - 2], ORDER), log_time_of_term(c[ORDER - 3], ORDER - 1))
         )
         to_corner, length = corner <= length, min(length, corner)
-    while not error_bound(p, side, velocity, c, length, drive, LONG) <= ERROR and length > SHORTEST:
+    while not error_bound(p, side, velocity, c, sine, length, drive, LONG) <= ERROR and length > SHORTEST:
         to_corner, length = False, SHORTER * length
     return Step(angle, velocity, c, length, to_corner, False, sine, cosine)
 

@@ -1,9 +1,14 @@
 """Certified next event of the full block, and its states, perturbations and turns, step by step; proof that it overturns.
 
-With x = |theta| - alpha of a side, and times in units of its rate, x'' = sin x - sigma a cos x >= r sin(x - beta) for |x| <= pi/2,
-where beta = arctan(a_m), r^2 = 1 + a_m^2, and a_m >= sigma a from now on. For q = x' + 2 sqrt(r) sin((x - beta)/2),
-q' >= sqrt(r) cos((x - beta)/2) q. So q >= 0 remains, and the block never returns. It also stays down once it lies flat, at
-|theta| = pi/2.
+With x = |theta| - alpha of a side, and times in units of its rate, x'' = W sin x - sigma a cos x, with the weight W, which is 1 on a base
+that moves horizontally. From now on let l <= W <= h, with 0 < l <= 1 <= h, and a_m >= sigma a, where a_m >= 0. If x >= 0,
+W sin x >= l sin x. If x0 <= x < 0, W sin x >= l sin x - (h - l) tan|x0| cos x. So with m = a_m + (h - l) tan(max(-x0, 0)),
+
+    x'' >= l sin x - m cos x = r sin(x - beta) for x0 <= x <= pi/2, beta = arctan(m/l), r^2 = l^2 + m^2.
+
+For q = x' + 2 sqrt(r) sin((x - beta)/2), q' >= sqrt(r) cos((x - beta)/2) q. So q >= 0 remains. Then x' > 0 wherever x < beta, so that x
+never falls below the lower one of x0 and beta, and the bound holds for ever: the block never returns. If l <= 0, nothing is proved. It
+also stays down once it lies flat, at |theta| = pi/2.
 """
 
 import math
@@ -29,16 +34,20 @@ from rocking.kernels.arc.first_zero_full import first_zero_of_step
 from rocking.kernels.arc.full_series import derivative, negative
 from rocking.kernels.arc.full_step import cannot_reach_base, state_in, step_from, transfer_in
 from rocking.kernels.contract import (
-    acceleration_of,
     constants_at,
     drive_after_event,
     drive_later,
     drive_on_clock,
+    flat_time,
+    growth_of,
+    heaviest_ahead,
     largest_ahead,
+    lightest_ahead,
+    limits_within,
 )
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
 from rocking.kernels.library.kernel import body, kernel
-from rocking.kernels.numerics.elementary import arctangent, hypotenuse, sine_of
+from rocking.kernels.numerics.elementary import arctangent, hypotenuse, sine_of, tangent_of
 from rocking.kernels.system import Full, side_of
 
 FLAT = 0.5 * math.pi
@@ -46,19 +55,30 @@ FLAT = 0.5 * math.pi
 SLOWEST_GROWTH = 0.01
 
 
-@kernel
+@body(contract.never_returns, Full)
 def never_returns(p, side, angle, velocity, drive):
-    """Return whether a block certainly never comes back to the base."""
+    """Provide ``contract.never_returns`` by the bound of the module's text."""
     alpha, own = p.block.critical_angle, side_of(p.block, side)
     if alpha * angle >= FLAT:
         return True
     x, slope = alpha * (angle - own.ratio), alpha * velocity / own.rate
-    # Most blocks are far too slow, whatever the base does. With beta >= 0, r >= 1 and y = -x, 2 sin(y/2) >= y - y^3/24.
+    # Most blocks are far too slow, whatever the base does. With beta >= 0, r >= 1 and y = -x, 2 sin(y/2) >= y - y^3/24. If r < 1, a
+    # proof may come later.
     if x < 0.0 and slope < -x * (1.0 - x * x / 24.0):
         return False
-    largest = alpha * largest_ahead(p, side, drive)
-    lean = x - arctangent(largest)
-    return lean > -math.pi and slope + 2.0 * math.sqrt(hypotenuse(1.0, largest)) * sine_of(0.5 * lean) >= 0.0
+    largest, light, heavy = (
+        alpha * largest_ahead(p, side, drive),
+        lightest_ahead(p, drive),
+        heaviest_ahead(p, drive),
+    )
+    if light <= 0.0:
+        return False
+    if heavy > light and x < 0.0:
+        largest += (heavy - light) * tangent_of(-x)
+    lean = x - arctangent(largest / light)
+    return (
+        lean > -math.pi and slope + 2.0 * math.sqrt(hypotenuse(light, largest)) * sine_of(0.5 * lean) >= 0.0
+    )
 
 
 @body(contract.arc_at, Full, inline=True)
@@ -177,23 +197,32 @@ def first_event(p, arc, peak, with_lows):
                 drive = drive_later(p, drive, hit, False)
                 coming = Next(elapsed + hit, BRACE, arc.side, brace, velocity, drive, 0.0, 0.0)
                 return coming, with_reached(seen, brace), stretch_of(growth, elapsed, steps)
-        h = min(t, step.length)
+        flat = flat_time(p, arc.side, step, drive)
+        lies = flat < t
+        t = math.inf if lies else t
+        h = min(t, flat, step.length)
         if peak < math.inf:
             peak = peak_in(p, arc, step, drive, h, peak)
-        stiffness = step.cosine - arc.side * p.block.critical_angle * acceleration_of(p, drive) * step.sine
+        stiffness = growth_of(p, contract.stiffness(p, arc.side, step.sine, step.cosine, drive))
         growth, part = growth + h * stiffness, (h / step.length) ** 4
         steps += part * part
         rise, velocity = state_in(step, h)
         end = 0.0 if t < math.inf else angle + rise
         if with_lows and may_turn_up(p, arc.side, step, drive, h, end, velocity):
             seen = with_minimum(p, arc.side, step, drive, h, end, velocity, elapsed, seen)
+        if with_lows and not lies:
+            seen = limits_within(p, arc, step, drive, h, end, seen)
         elapsed += h
+        if lies:
+            drive = drive_later(p, drive, flat, False)
+            coming = Next(math.inf, NONE, arc.side, end, velocity, drive, 0.0, 0.0)
+            return coming, with_reached(seen, peak), stretch_of(growth, elapsed, steps)
         if t < math.inf:
             drive = drive_later(p, drive, t, False)
             coming = Next(elapsed, IMPACT, arc.side, 0.0, velocity, drive, 0.0, 0.0)
             return coming, with_reached(seen, peak), stretch_of(growth, elapsed, steps)
         angle, drive = end, drive_later(p, drive, step.length, step.to_corner)
-        if brace == math.inf and never_returns(p, arc.side, angle, velocity, drive):
+        if brace == math.inf and contract.never_returns(p, arc.side, angle, velocity, drive):
             coming = Next(math.inf, NONE, arc.side, angle, velocity, drive, 0.0, 0.0)
             return coming, with_reached(seen, peak), stretch_of(growth, elapsed, steps)
     coming = Next(elapsed, NONE, arc.side, angle, velocity, drive, 0.0, 0.0)
@@ -226,8 +255,11 @@ def next_event(p, mode, arc, guess):
 def no_return_time(p, arc):
     """Provide ``contract.no_return_time``: the end of the first step after which overturning is proved."""
     angle, velocity, drive, elapsed = arc.angle, arc.velocity, arc.drive, 0.0
-    while not never_returns(p, arc.side, angle, velocity, drive):
+    while not contract.never_returns(p, arc.side, angle, velocity, drive):
         step = step_from(p, arc.side, angle, velocity, drive)
+        flat = flat_time(p, arc.side, step, drive)
+        if flat < math.inf:
+            return elapsed + flat
         rise, velocity = state_in(step, step.length)
         angle, elapsed = angle + rise, elapsed + step.length
         drive = drive_later(p, drive, step.length, step.to_corner)

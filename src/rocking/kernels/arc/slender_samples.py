@@ -14,6 +14,7 @@ P + P' is the integral of e^(t - x) a(x) over all later times x. After the last 
 from rocking.kernels import contract
 from rocking.kernels.arc.arc import Arc, Instant
 from rocking.kernels.arc.first_zero_samples import ROUNDING, Piece, at, with_hyperbolic
+from rocking.kernels.base.biaxial import Biaxial
 from rocking.kernels.base.samples import (
     SampledConstants,
     Samples,
@@ -143,13 +144,13 @@ def growth_constant(p, arc):
     return arc.constants.grow, ROUNDING * terms
 
 
-@body(contract.has_ended, None, Samples, inline=True)
+@body(contract.has_ended, None, Samples, Biaxial, inline=True)
 def has_ended(p, drive):
     """Provide ``contract.has_ended``."""
     return drive.index >= last_index(p)
 
 
-@body(contract.elapsed_until, None, Samples, inline=True)
+@body(contract.elapsed_until, None, Samples, Biaxial, inline=True)
 def elapsed_until(p, arc, drive):
     """Provide ``contract.elapsed_until``."""
     return time_between(p, arc.drive, drive)

@@ -16,8 +16,11 @@ from rocking.kernels.contract import (
     acceleration_change_bound,
     acceleration_of,
     acceleration_size,
+    excess_push,
     forcing_term,
     has_wall,
+    weight_change_bound,
+    weight_of,
 )
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.system import Full, Slender, Unsymmetric
@@ -185,20 +188,25 @@ LONGER = 2.5
 def settling_of_full(p, side, drive, speed):
     """Provide ``contract.settling`` for the full block.
 
-    Near the base it is accelerated back with press + sigma A cos(alpha), within (1 + alpha |A|) u, and near a brace likewise. The
-    weaker acceleration of both sides, and the larger change, bound both. Against a wall there is only the right side.
+    Near the base it is accelerated back with W press + sigma A cos(alpha), within (W + alpha |A|) u, where W is the weight, and near a
+    brace likewise. Of a restrained block ``excess_push`` is added to |A|. The weaker acceleration of both sides, and the larger change,
+    bound both. Against a wall there is only the right side.
     """
     block, now, right, left = p.block, acceleration_of(p, drive), p.block.right, p.block.left
     e, swing, cosine = largest_up_to(p, speed), abs(now), max(right.cosine, left.cosine)
-    press = right.press + right.cosine * now
+    weight = weight_of(p, drive)
+    press, most = weight * right.press + right.cosine * now, right.press
     if not has_wall(p):
-        press = min(press, left.press - left.cosine * now)
+        press, most = min(press, weight * left.press - left.cosine * now), max(most, left.press)
     if e >= 1.0 or press <= 0.0:
         return math.inf, math.inf
     window = LONGER * 2.0 * speed / (press * (1.0 - e))
-    moved = acceleration_change_bound(p, drive, window)
-    softness = max(right.stiffness, left.stiffness) * (1.0 + block.critical_angle * (swing + moved))
-    accelerations = press - cosine * moved, press + cosine * moved
+    moved, lifted = acceleration_change_bound(p, drive, window), weight_change_bound(p, drive, window)
+    softness = max(right.stiffness, left.stiffness) * (
+        abs(weight) + lifted + block.critical_angle * (swing + moved + excess_push(p))
+    )
+    change = cosine * moved + most * lifted
+    accelerations = press - change, press + change
     clearance = min(1.0, left.ratio, block.brace_angle)
     bound, height = settling_time(speed, e, accelerations, softness, softness, clearance)
     return (bound, height) if bound <= window else (math.inf, math.inf)

@@ -9,7 +9,7 @@ import math
 
 from rocking.kernels import contract
 from rocking.kernels.arc.arc import Next
-from rocking.kernels.contract import acceleration_of
+from rocking.kernels.contract import acceleration_of, weight_of
 from rocking.kernels.event_kinds import REST
 from rocking.kernels.library.kernel import body
 from rocking.kernels.numerics.elementary import cosine_of, sine_of
@@ -18,10 +18,12 @@ from rocking.kernels.system import Full, Unsymmetric, side_of
 
 @body(contract.acceleration, Full, inline=True)
 def acceleration(p, side, angle, drive):
-    """Provide ``contract.acceleration``: u'' = -r^2 (sin(w)/alpha + sigma A cos(w)), w = alpha (s - u)."""
+    """Provide ``contract.acceleration``: u'' = -r^2 (W sin(w)/alpha + sigma A cos(w)), w = alpha (s - u), with the weight W."""
     alpha, own = p.block.critical_angle, side_of(p.block, side)
     w = alpha * (own.ratio - angle)
-    return own.stiffness * (-sine_of(w) / alpha - side * acceleration_of(p, drive) * cosine_of(w))
+    return own.stiffness * (
+        -(weight_of(p, drive) * sine_of(w)) / alpha - side * acceleration_of(p, drive) * cosine_of(w)
+    )
 
 
 @body(contract.forcing_term, Full, inline=True)
@@ -34,6 +36,12 @@ def forcing_term(p, side, drive):
 def restoring_acceleration(p, side):
     """Provide ``contract.restoring_acceleration``."""
     return side_of(p.block, side).press
+
+
+@body(contract.parts_at_base, Full, inline=True)
+def parts_at_base(p, side, weight):
+    """Provide ``contract.parts_at_base``."""
+    return weight * side_of(p.block, side).press
 
 
 @body(contract.change_of_side, Full, inline=True)

@@ -9,7 +9,7 @@ from rocking.kernels import contract
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.numerics.elementary import exponential
 from rocking.kernels.numerics.replace_fields import replacing
-from rocking.kernels.system import Full, FullBlock, Scatter
+from rocking.kernels.system import Full, FullBlock, Restrained, Scatter
 
 # Largest |z| of the normal distribution, which is truncated there.
 TRUNCATION = 3.0
@@ -25,7 +25,7 @@ UNIT = 2.0**-53
 
 with_offset = replacing(Scatter, "offset")
 with_scatter = replacing(FullBlock, "scatter")
-with_block = replacing(Full, "block")
+with_block, with_restrained_block = replacing(Full, "block"), replacing(Restrained, "block")
 
 
 @kernel(inline=True)
@@ -64,14 +64,26 @@ def deviation_at(stream, place, even):
     return 0.0
 
 
-@body(contract.at_impact, Full, inline=True)
-def at_impact(p, place):
-    """Provide ``contract.at_impact``."""
-    scatter = p.block.scatter
+@kernel(inline=True)
+def block_at(block, place):
+    """Return a full block with the offset of the coming impact."""
+    scatter = block.scatter
     offset = 0.0
     if scatter.deviation > 0.0:
         offset = scatter.deviation * deviation_at(scatter.stream, place, scatter.uniform)
-    return with_block(p, with_scatter(p.block, with_offset(scatter, offset)))
+    return with_scatter(block, with_offset(scatter, offset))
+
+
+@body(contract.at_impact, Full, inline=True)
+def at_impact(p, place):
+    """Provide ``contract.at_impact``."""
+    return with_block(p, block_at(p.block, place))
+
+
+@body(contract.at_impact, Restrained, inline=True)
+def restrained_at_impact(p, place):
+    """Provide ``contract.at_impact``."""
+    return with_restrained_block(p, block_at(p.block, place))
 
 
 @body(contract.is_scattered, Full, inline=True)

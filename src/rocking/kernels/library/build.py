@@ -35,7 +35,7 @@ from rocking.kernels.library.load import (
 )
 from rocking.kernels.library.processor import COMPILER, classes_here, classes_of_machine, reason_against
 
-GROUPS = ("slender", "full", "unsymmetric")
+GROUPS = ("slender", "full", "unsymmetric", "restrained")
 SAFE = ("noexecstack", "relro", "defs")
 SHARED = ("libm.so.6", "libc.so.6")
 KEPT = CHECKOUT / "build" / "kernels"

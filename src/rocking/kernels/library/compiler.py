@@ -1,6 +1,7 @@
 """Kernels and entry points as numba compiles them; only a process that compiles imports this module."""
 
 from collections.abc import Callable
+from itertools import product
 from typing import Any
 
 import numba
@@ -190,7 +191,8 @@ class ChosenByType:
     def _body(self, args: Any) -> Any:
         system = args[0]
         block, base = system.instance_class, system.types[system.fields.index("forcing")].instance_class
-        for key in ((block, base), (block, None), (None, base)):
+        blocks = (block, block.LIKE) if hasattr(block, "LIKE") else (block,)
+        for key in (*product(blocks, (base, None)), (None, base)):
             if key in self.bodies:
                 return self.bodies[key].compiled
         raise TypingError(f"{self.__name__} has no body for {block.__name__}[{base.__name__}]")

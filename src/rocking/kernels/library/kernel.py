@@ -105,7 +105,8 @@ def body(
 ) -> Callable[[Callable[..., Any] | Kernel], Kernel]:
     """Mark a kernel as the body of a function for systems of a class, ``Slender`` or ``Full``, on these bases.
 
-    The block None stands for either, and no base for any; a body for one pair comes before these.
+    The block None stands for either, and no base for any; a body for one pair comes before these. A block that is ``LIKE`` another one
+    has the bodies of that where it has none of its own.
     """
 
     def mark(function: Callable[..., Any] | Kernel) -> Kernel:

@@ -64,7 +64,10 @@ def chosen_of(union: Any) -> list[Chosen]:
     members = []
     for k, member in enumerate(get_args(union)):
         base = get_args(member)
-        place = get_origin(member).__parameters__[0].__constraints__.index(base[0]) if base else k
+        place = k
+        if base:  # a base may have the drives and the constants of another one
+            bases = get_origin(member).__parameters__[0].__constraints__
+            place = bases.index(getattr(base[0], "LIKE", base[0]))
         members.append(Chosen(member, place))
     return members
 

@@ -25,6 +25,7 @@ from rocking.kernels.contract import (
     elapsed_until,
     end_is_sure,
     escape_speed,
+    estimate_error,
     has_ended,
     impacts_per_trial,
     is_scattered,
@@ -146,8 +147,6 @@ def highest_with(p, highest, arc, coming, extremes):
     return Highest(peak, reached, top, arc, coming)
 
 
-# Error of ``contract.margin_estimate``.
-DOUBT = 0.1
 # Margins that are computed in one motion; chattering without much loss has a hundred thousand arcs, each as close as the others.
 MOST_MARGINS = 1_000
 
@@ -248,7 +247,7 @@ def after_arc(p, arc, time, coming, extremes, stretch, so_far, at_event, each):
     margin, when, margins = so_far.margin, so_far.time, so_far.margins
     if arc.angle == 0.0:
         constant = margin_estimate(p, arc, coming, stretch)
-        if each and margins < MOST_MARGINS and abs(constant) < abs(margin) + DOUBT:
+        if each and margins < MOST_MARGINS and abs(constant) < abs(margin) + estimate_error(p):
             constant, margins = margin_of(p, arc, constant, True), margins + 1
         if abs(constant) < abs(margin):
             margin, when = constant, time

@@ -4,7 +4,8 @@ Each arc adds the error of its own arithmetic, and the matrices of ``tangent`` c
 as independent, so that their squares add up.
 
 On an arc of a slender block a perturbation is a sum of e^t and e^-t, exactly. On one of a full block x'' = q(t) x, where
-q = cos w - sigma a sin w. The covariance is carried with the mean of q over the arc, the first term of the Magnus series.
+q = W cos w - sigma a sin w, with the weight W. The covariance is carried with the mean of q over the arc, the first term of the Magnus
+series.
 
 An arc of a slender block ends as computed if K+ exceeds its error: no more is to be known, because the equation is linear. Of a full
 block the error at the end of the arc must be small. For a size d of the error, terms of its second order are alpha d^2 at most. So
@@ -22,11 +23,16 @@ from typing import NamedTuple
 from rocking.kernels import contract
 from rocking.kernels.arc.arc import ROUNDING
 from rocking.kernels.arc.full_step import ERROR
-from rocking.kernels.arc.search_full import never_returns
 from rocking.kernels.block.restitution import bend_within
-from rocking.kernels.contract import forcing_term, growth_constant
+from rocking.kernels.contract import (
+    forcing_term,
+    growth_constant,
+    heaviest_ahead,
+    never_returns,
+    parts_at_base,
+)
 from rocking.kernels.library.kernel import body, kernel
-from rocking.kernels.system import Full, Slender, Unsymmetric, side_of
+from rocking.kernels.system import Full, Slender, Unsymmetric
 
 # A result counts as certain if it exceeds this number of standard deviations.
 DEVIATIONS = 32.0
@@ -127,10 +133,15 @@ def rounding_error(p, arc, wait, growth, steps):
     """
     short = min(wait, 1.0)
     count = steps * (short / wait) if wait > 0.0 else 0.0
-    terms = (
-        arc.angle + abs(arc.velocity) + (side_of(p.block, arc.side).press + contract.largest_push(p)) * short
-    )
-    return growth * (ROUNDING * math.sqrt(1.0 + count) * terms + (ERROR / DEVIATIONS) * count)
+    return growth * error_of_steps(p, arc, count, short)
+
+
+@kernel(inline=True)
+def error_of_steps(p, arc, count, time):
+    """Return an estimate of the rounding error of a number of steps from the start of an arc on, which take a time."""
+    push = parts_at_base(p, arc.side, heaviest_ahead(p, arc.drive)) + contract.largest_push(p)
+    terms = arc.angle + abs(arc.velocity) + push * time
+    return ROUNDING * math.sqrt(1.0 + count) * terms + (ERROR / DEVIATIONS) * count
 
 
 @body(contract.end_is_sure, Unsymmetric, inline=True)
@@ -141,10 +152,16 @@ def end_is_sure(p, arc, coming, error, at_event):
     return exceeds(constant, of_growth(widened(error, rounded)))
 
 
+@kernel
+def spread_of(c):
+    """Return the limit of the errors of u and of u'."""
+    return DEVIATIONS * math.sqrt(max(c.uu, c.vv))
+
+
 @body(contract.end_is_sure, Full)
 def end_of_full_is_sure(p, arc, coming, error, at_event):
     """Provide ``contract.end_is_sure``: the error at the end is small, and there overturning is certain for all motions within it."""
-    spread = DEVIATIONS * math.sqrt(max(at_event.uu, at_event.vv))
+    spread = spread_of(at_event)
     if not spread < LINEAR:
         return False
     return coming.wait < math.inf or never_returns(

@@ -21,6 +21,7 @@ from rocking.kernels.contract import (
     sensitivities,
     transfer,
     transfer_to_event,
+    weight_of,
 )
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAVE, NONE
 from rocking.kernels.library.kernel import kernel
@@ -209,7 +210,8 @@ def event_map(p, arc, coming, mode_after, side_after):
         if has_wall(p):
             return -e, shear_of(brace_gain(gain, f), coming.velocity), -gain
         restores, pushes = change_of_side(p, arc.side, side_after)
-        gained = impact_gain(gain, restoring_acceleration(p, arc.side), f, turned, restores, pushes)
+        restoring = weight_of(p, coming.drive) * restoring_acceleration(p, arc.side)
+        gained = impact_gain(gain, restoring, f, turned, restores, pushes)
         return e, shear_of(gained, -coming.velocity), gain
     if coming.event == BRACE:
         r = p.block.brace_restitution

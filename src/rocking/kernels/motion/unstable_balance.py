@@ -2,7 +2,9 @@
 
 The arcs of one side are continued smoothly through u = 0, and the base is at rest after its motion. With x = alpha (u - 1),
 
-    x'' = sin x - sigma a(t) cos x.
+    x'' = W(t) sin x - sigma a(t) cos x,
+
+with the weight W, which is 1 on a base that moves horizontally, and after the base motion.
 
 (For a left side of its own, alpha and the unit of time are those of the side.)
 
@@ -11,32 +13,37 @@ v_s(t) = W(t, 0), and the margin of a block that leaves the base at the speed v 
 K > 0 it overturns, unless it meets the base before. After the base motion W = -(2/alpha) sin(x/2). For small alpha, K is the
 constant K+ of the slender block.
 
-**Existence.** Let |a| <= m from now on. If m < 1 and alpha + arctan m < 90 degrees, the difference d of two motions within
-|x| <= max(alpha, arctan m) obeys d'' = q d with q > 0, so that one of them is bounded, and only one. Otherwise q > 0 is checked along
-the motion that is found. If it fails, there is no margin.
+**Existence.** Let |a| <= m l and W >= l > 0 from now on. If m < 1 and alpha + arctan m < 90 degrees, the difference d of two motions
+within |x| <= max(alpha, arctan m) obeys d'' = q d with q > 0, so that one of them is bounded, and only one: q is a mean of
+W cos x - sigma a sin x >= l (cos x - m |sin x|), and x W sin x > |a x| cos x beyond arctan m. Otherwise q > 0 is checked along the motion
+that is found. If it fails, there is no margin.
 
 **Method.** For any motion the excess e = u' - W(t, u) obeys e' = -W_u e. So K is the excess at a later time, divided by its growth,
 which follows from the equation of small perturbations, to first order in K. W is approximated by that of the free block and the
-response R of the slender one, W = -(2/alpha) sin(x/2) + sigma R. If the excess becomes larger than JUMP, the motion is put
+response R of the slender one to a, W = -(2/alpha) sin(x/2) + sigma R. If the excess becomes larger than JUMP, the motion is put
 onto this W, and goes on. The sum of all excesses, each divided by the growth so far, is K. An error of W counts less by the
-growth. What is left is of second order in each excess: W_uu is about alpha^2/4. Repetition from the better speed makes it as small
-as is wanted. Each repetition allows larger excesses, so that the error of W causes no jump in the end.
+growth. What is left is of second order in each excess: W_uu is about alpha^2/4. On a base that also moves vertically, -W_u may be far
+from its approximation, too, which leaves an error of first order: a part of the excess. Repetition from the better speed makes both as
+small as is wanted. Each repetition allows larger excesses, so that the error of W causes no jump in the end.
 """
 
 import math
+from typing import NamedTuple
 
 from rocking.kernels import contract
-from rocking.kernels.arc.full_series import brief_divided_1, brief_linear_series
+from rocking.kernels.arc.full_biaxial import pushes_at
+from rocking.kernels.arc.full_series import brief_biaxial_series, brief_divided_1, brief_linear_series
 from rocking.kernels.arc.full_step import lean_of, state_in, step_from
 from rocking.kernels.arc.slender_samples import means_at
+from rocking.kernels.base.biaxial import Biaxial
 from rocking.kernels.base.cosine import Pulse
 from rocking.kernels.base.samples import Samples, interval
 from rocking.kernels.contract import (
-    acceleration_of,
     drive_later,
     elapsed_until,
     growth_constant,
     has_ended,
+    lightest_ahead,
     response_ahead,
     smooth_step,
     smooth_time,
@@ -52,13 +59,12 @@ from rocking.kernels.numerics.elementary import (
 )
 from rocking.kernels.system import Full, Slender, Unsymmetric, side_of
 
-# Excess above which the motion is put onto the approximation of W: at first, its factor at each repetition, and at most.
-JUMP, WIDER, WIDEST = 0.2, 4.0, 1.0
+# Excess above which the motion is put onto the approximation of W: at first, and its factor at each repetition.
+JUMP, WIDER = 0.2, 4.0
 # Growth of the excess at which the error of W, about 0.05, no longer counts: absolutely, in a batch, and for the sign of K.
 FAR, FAR_IN_BATCH, CLEAR = 2.0**32, 2.0**14, 2.0**8
-# Largest error of second order that may be left.
+# Largest error that jumps may leave.
 SETTLED, SETTLED_IN_BATCH = 1e-11, 1e-4
-REPETITIONS = 12
 # Length of a step of ``brief_linear_series``: the error of a step is below 1e-11.
 LONGEST = 0.1
 FLAT = 0.5 * math.pi
@@ -66,13 +72,15 @@ FLAT = 0.5 * math.pi
 UPSIDE_DOWN = math.pi
 
 
-@body(contract.response_ahead, Full, Samples, inline=True)
+@body(contract.response_ahead, Slender, Samples, inline=True)
+@body(contract.response_ahead, Full, Samples, Biaxial, inline=True)
 def response_to_samples(p, drive):
     """Provide ``contract.response_ahead`` by the tables."""
     mean, rate = means_at(p, drive)
     return mean + rate
 
 
+@body(contract.response_ahead, Slender, Pulse)
 @body(contract.response_ahead, Full, Pulse)
 def response_to_pulse(p, drive):
     """Provide ``contract.response_ahead``: that to the whole cosine, less the part after the end of the pulse."""
@@ -81,6 +89,39 @@ def response_to_pulse(p, drive):
         return 0.0
     whole = wave.response * (drive.cosine - wave.frequency * drive.sine)
     return whole - exponential(-left) * p.forcing.end_response
+
+
+class Approach(NamedTuple):
+    """Errors of the approximation of W that the search for the bounded motion admits, and its number of repetitions."""
+
+    bend: float  # W_uu, about
+    is_rough: (
+        bool  # whether the errors of growths count; else repetition reduces them with those of second order
+    )
+    widest: float  # of W
+    repetitions: int
+
+
+@kernel(inline=True)
+def bend_of(p):
+    """Return about W_uu of a free block."""
+    return 0.25 * p.block.critical_angle * p.block.critical_angle
+
+
+@body(contract.approach_of, Full, inline=True)
+def approach_of(p):
+    """Provide ``contract.approach_of``."""
+    return Approach(bend_of(p), False, 1.0, 12)
+
+
+@body(contract.approach_of, Full, Biaxial, inline=True)
+def approach_with_weight(p):
+    """Provide ``contract.approach_of``.
+
+    -W_u is about the root of a mean weight, instead of 1, and the weight changes within a step. So a repetition leaves a part of the
+    excess.
+    """
+    return Approach(bend_of(p), True, 8.0, 40)
 
 
 @body(contract.smooth_step, Full, Samples)
@@ -98,11 +139,25 @@ def step_between_samples(p, side, angle, velocity, drive):
     return angle + slope * h, fma(bend, h, slope), cosine - push * sine, h, later
 
 
+@body(contract.smooth_step, Full, Biaxial)
+def step_between_weights(p, side, angle, velocity, drive):
+    """Provide ``contract.smooth_step`` by a series of low order."""
+    alpha, corner = p.block.critical_angle, smooth_time(p, drive)
+    h = min(corner, LONGEST)
+    push, rate, weight, lift = pushes_at(p, side, drive)
+    sine, cosine = lean_of(p.block, side, angle)
+    c = brief_biaxial_series(-alpha * velocity, sine, cosine, -1.0 / alpha, push, rate, weight, lift)
+    slope, bend = brief_divided_1(angle, velocity, c, h)
+    later, half = drive_later(p, drive, h, h == corner), 0.5 * h
+    stiffness = (weight + half * lift) * cosine - (push + half * rate) * sine
+    return angle + slope * h, fma(bend, h, slope), stiffness, h, later
+
+
 @kernel(inline=True)
 def stiffness_at(p, side, angle, drive):
     """Return q, the derivative of u'' by u."""
     sine, cosine = lean_of(p.block, side, angle)
-    return cosine - side * p.block.critical_angle * acceleration_of(p, drive) * sine
+    return contract.stiffness(p, side, sine, cosine, drive)
 
 
 @body(contract.smooth_step, Full, Pulse)
@@ -117,9 +172,9 @@ def step_in_pulse(p, side, angle, velocity, drive):
     return there, rate, 0.5 * (stiffness_at(p, side, angle, drive) + end), step.length, later
 
 
-@kernel(inline=True)
+@body(contract.bounded_velocity, Full, inline=True)
 def bounded_velocity(p, side, angle, drive):
-    """Return the approximation of W, and of -W_u: that of the free block, and the response of the slender one."""
+    """Provide ``contract.bounded_velocity``: that of the free block, and the response of the slender one."""
     own = side_of(p.block, side)
     half = 0.5 * p.block.critical_angle * (angle - own.ratio)
     square = half * half
@@ -127,9 +182,9 @@ def bounded_velocity(p, side, angle, drive):
     return own.rate * (free + side * response_ahead(p, drive)), own.rate * (1.0 - 0.5 * square)
 
 
-@kernel
+@body(contract.excess_at_end, Full)
 def excess_at_end(p, side, angle, velocity):
-    """Return the excess after the base motion, and -W_u, in closed form."""
+    """Provide ``contract.excess_at_end``, in closed form."""
     own, alpha = side_of(p.block, side), p.block.critical_angle
     half = 0.5 * alpha * (angle - own.ratio)
     return velocity + own.rate * sine_of(half) * 2.0 / alpha, own.rate * cosine_of(half)
@@ -137,40 +192,44 @@ def excess_at_end(p, side, angle, velocity):
 
 @kernel
 def excess_of(p, arc, speed, far, jump):
-    """Return the excess of a speed by one pass along its motion, its error of second order, and the least q there.
+    """Return the excess of a speed by one pass along its motion, the error that jumps leave, and the least q there.
 
     The pass ends where the growth exceeds ``far``, and that of K, too. If it leaves |x| < 180 degrees, the error is infinite.
     """
     angle, velocity, drive, total, least = 0.0, speed, arc.drive, 0.0, math.inf
-    bend, doubt = 0.25 * p.block.critical_angle * p.block.critical_angle, 0.0
+    approach, doubt = contract.approach_of(p), 0.0
     by_angle, by_velocity = 0.0, 1.0  # of the perturbation that starts with (0, 1)
     alpha, balance = p.block.critical_angle, side_of(p.block, arc.side).ratio
     while not has_ended(p, drive):
         if not alpha * abs(angle - balance) < UPSIDE_DOWN:
             return math.nan, math.inf, least
-        wanted, slope = bounded_velocity(p, arc.side, angle, drive)
+        wanted, slope = contract.bounded_velocity(p, arc.side, angle, drive)
         excess, gain = velocity - wanted, by_velocity + slope * by_angle
         if gain > far and abs((arc.velocity - speed + total) * gain + excess) > CLEAR:
             return total + excess / gain, doubt, least
         if abs(excess) > jump:
             total += excess / gain
-            doubt += bend * excess * excess / gain
+            doubt += approach.bend * excess * excess / gain
+            if approach.is_rough:
+                doubt += abs(excess) / gain
             velocity = wanted
         angle, velocity, q, h, drive = smooth_step(p, arc.side, angle, velocity, drive)
         least, z = min(least, q), q * h * h
         cosh = 1.0 + 0.5 * z * (1.0 + z * (1.0 / 12.0) * (1.0 + z * (1.0 / 30.0)))
         sinh = h * (1.0 + z * (1.0 / 6.0) * (1.0 + z * (1.0 / 20.0)))
         by_angle, by_velocity = cosh * by_angle + sinh * by_velocity, q * sinh * by_angle + cosh * by_velocity
-    excess, slope = excess_at_end(p, arc.side, angle, velocity)
+    excess, slope = contract.excess_at_end(p, arc.side, angle, velocity)
     gain = by_velocity + slope * by_angle
-    return total + excess / gain, doubt + bend * excess * excess / gain, least
+    return total + excess / gain, doubt + approach.bend * excess * excess / gain, least
 
 
 @kernel
 def is_unique(p, arc):
     """Return whether the bound of the module's text proves that one motion is bounded, and only one."""
-    alpha = p.block.critical_angle
-    largest = alpha * contract.largest_push(p)
+    alpha, light = p.block.critical_angle, lightest_ahead(p, arc.drive)
+    if light <= 0.0:
+        return False
+    largest = alpha * contract.largest_push(p) / light
     return largest < 1.0 and alpha * side_of(p.block, arc.side).ratio + arctangent(largest) < FLAT
 
 
@@ -187,12 +246,14 @@ def margin_of(p, arc, estimate, in_batch):
     unit = speed_unit(p, arc.side)
     speed = arc.velocity - estimate * unit
     far, settled = (FAR_IN_BATCH, SETTLED_IN_BATCH) if in_batch else (FAR, SETTLED)
-    jump = JUMP
-    for _ in range(REPETITIONS):
+    jump, approach = JUMP, contract.approach_of(p)
+    for _ in range(approach.repetitions):
         excess, doubt, least = excess_of(p, arc, speed, far, jump)
         if doubt == math.inf:
             return math.nan
-        speed, jump = speed - excess, min(WIDER * jump, WIDEST)
+        speed, jump = speed - excess, min(WIDER * jump, approach.widest)
+        if approach.is_rough:
+            doubt += abs(excess)
         if doubt <= settled:
             return (arc.velocity - speed) / unit if least > 0.0 or is_unique(p, arc) else math.nan
     return math.nan
@@ -202,8 +263,22 @@ def margin_of(p, arc, estimate, in_batch):
 def margin_estimate(p, arc, coming, stretch):
     """Provide ``contract.margin_estimate``: the excess at the end of the arc, divided by its growth."""
     sinh, cosh = rough_hyperbolic(stretch.rate * elapsed_until(p, arc, coming.drive))
-    wanted, _ = bounded_velocity(p, arc.side, coming.angle, coming.drive)
+    wanted, _ = contract.bounded_velocity(p, arc.side, coming.angle, coming.drive)
     return (coming.velocity - wanted) / ((sinh + cosh) * speed_unit(p, arc.side))
+
+
+@body(contract.estimate_error, Full, inline=True)
+@body(contract.estimate_error, Slender, inline=True)
+@body(contract.estimate_error, Unsymmetric, inline=True)
+def estimate_error(p):
+    """Provide ``contract.estimate_error``."""
+    return 0.1
+
+
+@body(contract.estimate_error, Full, Biaxial, inline=True)
+def estimate_error_with_weight(p):
+    """Provide ``contract.estimate_error``: the approximation of W knows nothing of the weight."""
+    return 0.3
 
 
 @body(contract.margin_of, Unsymmetric, inline=True)
