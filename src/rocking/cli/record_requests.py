@@ -100,8 +100,8 @@ def record(options: Options) -> Request:
     counted = ("+", "-")[place] if len(grounds) > 1 else ""
     files = tuple(name for name in ("plot", "animate", "csv", "netcdf", "friction") if name in options)
     arguments = {"system": system, "start": start, "cycles": None, "files": files}
-    motions = {"records": ground, "vertical": vertical}
-    return Request(arguments, options, system.block, NAMES, sentences, **motions, counted=counted)
+    request = Request(arguments, options, system.block, NAMES, sentences, records=ground, counted=counted)
+    return evolve(request, vertical=vertical)
 
 
 def sliding(options: Options) -> Request:
