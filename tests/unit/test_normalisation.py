@@ -201,7 +201,7 @@ NONSENSE = {
     ),
     "block": (
         lambda: rk.Block(2.0, 0.5, normalised_by="cosine"),
-        "normalised_by must be one of 'angle', 'tangent'; got 'cosine'",
+        "normalised_by must be one of 'angle', 'tangent', 'balance'; got 'cosine'",
     ),
     "model": (
         lambda: BLOCK.system(RECORD, model="thick"),
