@@ -1,6 +1,7 @@
 """Restrained blocks: against another method in physical units, 50 digits, references and closed forms."""
 
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +10,12 @@ import pytest
 import rocking as rk
 from oracles import full_taylor
 from oracles import unsymmetric as oracle
+from switches import compare_beside_switches, near_switches
 
 GRAVITY = 9.80665
 RECORD = Path(__file__).parents[3] / "shared" / "records" / "NGA_no_1063_RRS228.AT2"
 BLOCK = rk.Block(2.0, 0.4)
+SCALES = np.linspace(0.3, 6.0, 39).tolist()
 
 
 def restrained(block, kappa, rho, mass=500.0):
@@ -93,20 +96,6 @@ def cases(count, seed):
         yield Case(rng)
 
 
-def switch(case):
-    """Return the two neighbouring scales of the first switch of the outcome; None if there is none."""
-    scales = np.linspace(0.3, 6.0, 39).tolist()
-    fell = [case.falls(scale) for scale in scales]
-    if fell[0] or not any(fell):
-        return None
-    place = fell.index(True)
-    low, high = scales[place - 1], scales[place]
-    while low < 0.5 * (low + high) < high:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if case.falls(middle) else (middle, high)
-    return low, high
-
-
 def test_motions_agree_with_runge_kutta():
     fallen = [case.compare(1.0, oracle.with_runge_kutta) for case in cases(12, 9)]
     assert 0 < sum(fallen) < 12
@@ -117,12 +106,7 @@ def test_sixty_motions_agree_with_dop853():
     """Twenty of them lie at either side of a switch of the outcome, at 1e-5 of the scale."""
     fallen = sum(case.compare(1.0, oracle.with_dop853) for case in cases(40, 7))
     assert 5 < fallen < 35
-    compared = 0
-    for case in cases(60, 8):
-        if compared < 20 and (scales := switch(case)) is not None:
-            assert not case.compare(scales[0] * (1 - 1e-5), oracle.with_dop853)
-            compared += 1 + case.compare(scales[1] * (1 + 1e-5), oracle.with_dop853)
-    assert compared == 20
+    compare_beside_switches(cases(60, 8), SCALES, 20, partial(Case.compare, method=oracle.with_dop853))
 
 
 @pytest.mark.parametrize(
@@ -130,21 +114,14 @@ def test_sixty_motions_agree_with_dop853():
     [(12, (4, 8, 12, 14)), pytest.param(500, range(3, 15), marks=pytest.mark.long)],
 )
 def test_no_certified_outcome_next_to_a_switch_is_wrong(count, powers):
-    tried, sure, fallen = 0, 0, 0
-    for case in cases(20 * count, 3):
-        if tried == count:
-            break
-        if (scales := switch(case)) is None:
-            continue
-        for scale in [scales[1] * (1 + sign * 10.0**-power) for power in powers for sign in (-1, 1)]:
-            if tried == count:
-                break
-            tried, motion = tried + 1, case.motion(scale)
-            if motion.certified:
-                forcing, e = motion.system.forcing, motion.system.restitution
-                exact = full_taylor.Block(forcing.values, forcing.step, forcing.scale, e, 0.0).overturns()
-                assert exact == (motion.outcome == "overturned")
-                sure, fallen = sure + 1, fallen + exact
+    sure, fallen = 0, 0
+    for case, scale in near_switches(cases(20 * count, 3), SCALES, count, powers):
+        motion = case.motion(scale)
+        if motion.certified:
+            forcing, e = motion.system.forcing, motion.system.restitution
+            exact = full_taylor.Block(forcing.values, forcing.step, forcing.scale, e, 0.0).overturns()
+            assert exact == (motion.outcome == "overturned")
+            sure, fallen = sure + 1, fallen + exact
     assert 0.6 * count < sure
     assert 0 < fallen < sure
 

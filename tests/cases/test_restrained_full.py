@@ -3,6 +3,7 @@
 import itertools
 import math
 import sys
+from functools import partial
 from pathlib import Path
 
 import flint
@@ -23,10 +24,12 @@ from rocking.kernels.library.kernel import kernel
 from rocking.kernels.motion import finite_motion
 from rocking.kernels.restrainer import restrainer_of
 from rocking.motion.march_loop import parameters, tables_for
+from switches import compare_beside_switches, near_switches
 
 GRAVITY = 9.80665
 RECORD = Path(__file__).parents[3] / "shared" / "records" / "NGA_no_1063_RRS228.AT2"
 BLOCK = rk.Block(2.0, 0.6)
+SCALES = np.geomspace(0.5, 30.0, 40).tolist()
 MASS = 500.0
 
 
@@ -89,20 +92,6 @@ class Case:
         return fell
 
 
-def switch(case):
-    """Return the two neighbouring scales of the first switch of the outcome; None if there is none."""
-    scales = np.geomspace(0.5, 30.0, 40).tolist()
-    fell = [case.falls(scale) for scale in scales]
-    if fell[0] or not any(fell):
-        return None
-    place = fell.index(True)
-    low, high = scales[place - 1], scales[place]
-    while low < 0.5 * (low + high) < high:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if case.falls(middle) else (middle, high)
-    return low, high
-
-
 def cases(count, seed):
     rng = np.random.default_rng(seed)
     for _ in range(count):
@@ -113,12 +102,9 @@ def cases(count, seed):
 def test_motions_agree_with_dop853(count, each):
     """Of the motions ``each`` lie at either side of a switch of the outcome, at 1e-5 of the scale."""
     fallen = sum(case.compare(1.0, oracle.with_dop853) for case in cases(count, 7))
-    compared = 0
-    for case in cases(10 * each, 8):
-        if compared < each and (scales := switch(case)) is not None:
-            assert not case.compare(scales[0] * (1 - 1e-5), oracle.with_dop853)
-            compared += 1 + case.compare(scales[1] * (1 + 1e-5), oracle.with_dop853)
-    assert compared == each
+    compare_beside_switches(
+        cases(10 * each, 8), SCALES, each, partial(Case.compare, method=oracle.with_dop853)
+    )
     assert 0 < fallen < count
 
 
@@ -127,23 +113,16 @@ def test_motions_agree_with_dop853(count, each):
     [(12, (4, 8, 12, 14)), pytest.param(500, range(3, 15), marks=pytest.mark.long)],
 )
 def test_no_certified_outcome_next_to_a_switch_is_wrong(count, powers):
-    tried, sure, fallen, without_balance = 0, 0, 0, 0
-    for case in cases(20 * count, 3):
-        if tried == count:
-            break
-        if (scales := switch(case)) is None:
-            continue
-        free = restrainer_of(case.alpha, case.kappa, case.rho).balance == math.inf
-        for scale in [scales[1] * (1 + sign * 10.0**-power) for power in powers for sign in (-1, 1)]:
-            if tried == count:
-                break
-            tried, end = tried + 1, rk.simulate(case.system(scale))
-            if end.certified:
-                ratios = case.kappa, case.rho
-                block = full_taylor.Block(case.values, case.step, scale, case.e, case.alpha, ratios=ratios)
-                exact = block.overturns()
-                assert exact == (end.outcome == "overturned")
-                sure, fallen, without_balance = sure + 1, fallen + exact, without_balance + free
+    sure, fallen, without_balance = 0, 0, 0
+    for case, scale in near_switches(cases(20 * count, 3), SCALES, count, powers):
+        end = rk.simulate(case.system(scale))
+        if end.certified:
+            ratios = case.kappa, case.rho
+            block = full_taylor.Block(case.values, case.step, scale, case.e, case.alpha, ratios=ratios)
+            exact = block.overturns()
+            assert exact == (end.outcome == "overturned")
+            sure, fallen = sure + 1, fallen + exact
+            without_balance += restrainer_of(case.alpha, case.kappa, case.rho).balance == math.inf
     assert 0.5 * count < sure
     assert 0 < fallen < sure
     assert without_balance or count < 500

@@ -22,10 +22,12 @@ from rocking.kernels.base.samples import SampledDrive
 from rocking.motion import march_loop
 from rocking.motion.trajectory import side_at
 from rocking.motion.validity import base_reaction
+from switches import compare_beside_switches, near_switches
 
 RECORD = Path(__file__).parents[3] / "shared" / "records" / "20161113_110259_WTMC_20.V2A"
 BLOCK = rk.Block(2.0, 0.6)
 MODELS = "slender", "full"
+SCALES = np.linspace(0.3, 4.0, 38).tolist()
 G = 9.80665
 
 
@@ -125,20 +127,6 @@ def cases(count, seed):
         yield Case(alpha, e, bool(k % 2), push, lift, step, start, left)
 
 
-def switch(case):
-    """Return the two neighbouring scales of the first switch of the outcome; None if there is none."""
-    scales = np.linspace(0.3, 4.0, 38).tolist()
-    fell = [case.falls(scale) for scale in scales]
-    if fell[0] or not any(fell):
-        return None
-    place = fell.index(True)
-    low, high = scales[place - 1], scales[place]
-    while low < 0.5 * (low + high) < high:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if case.falls(middle) else (middle, high)
-    return low, high
-
-
 def compare(case, scale):
     """Return whether the block overturned, after a comparison of outcome and peak with the other method."""
     motion, found = case.motion(scale), case.of_oracle(scale)
@@ -158,27 +146,14 @@ def test_sixty_motions_agree_with_dop853():
     """Twenty of them lie at either side of a switch of the outcome, at 1e-5 of the scale."""
     fallen = sum(compare(case, 1.0) for case in cases(40, 7))
     assert 5 < fallen < 35
-    compared = 0
-    for case in cases(200, 8):
-        if compared < 20 and (scales := switch(case)) is not None:
-            assert not compare(case, scales[0] * (1 - 1e-5))
-            compared += 1 + compare(case, scales[1] * (1 + 1e-5))
-    assert compared == 20
+    compare_beside_switches(cases(200, 8), SCALES, 20, compare)
 
 
-def near_switches(seed, count, powers):
-    """Yield blocks at rest at first, and scales near a switch of the outcome."""
-    left = count
+def from_rest(count, seed):
+    """Yield blocks with equal sides or a wall, at rest at first."""
     for case in cases(100 * count, seed):
-        if case.start != rk.State() or isinstance(case.left, rk.LeftSide) or (scales := switch(case)) is None:
-            continue
-        for power in powers:
-            for sign in (-1, 1):
-                if left > 0:
-                    yield case, scales[1] * (1 + sign * 10.0**-power)
-                    left -= 1
-        if left == 0:
-            return
+        if case.start == rk.State() and not isinstance(case.left, rk.LeftSide):
+            yield case
 
 
 @pytest.mark.parametrize(
@@ -187,7 +162,7 @@ def near_switches(seed, count, powers):
 )
 def test_no_certified_outcome_next_to_a_switch_is_wrong(count, powers):
     sure, fallen = 0, 0
-    for case, scale in near_switches(3, count, powers):
+    for case, scale in near_switches(from_rest(count, 3), SCALES, count, powers):
         motion = case.motion(scale)
         if motion.certified:
             angle = case.alpha if case.full else 0.0
@@ -204,7 +179,7 @@ def test_no_certified_outcome_next_to_a_switch_is_wrong(count, powers):
 
 def test_margin_has_the_sign_of_the_outcome_and_vanishes_at_a_switch():
     compared = 0
-    for case, scale in near_switches(5, 24, (5, 7)):
+    for case, scale in near_switches(from_rest(24, 5), SCALES, 24, (5, 7)):
         motion = case.motion(scale)
         assert (motion.margin > 0) == (motion.outcome == "overturned")
         assert abs(motion.margin) < 1e-2

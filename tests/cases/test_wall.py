@@ -1,6 +1,7 @@
 """Blocks against a wall, slender and full: against two other methods, balls of 50 digits, closed forms and single motions."""
 
 import math
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,10 +11,12 @@ import pytest
 import rocking as rk
 from oracles import full_taylor
 from oracles import unsymmetric as oracle
+from switches import compare_beside_switches, near_switches
 
 RECORD = Path(__file__).parents[3] / "shared" / "records" / "NGA_no_1063_RRS228.AT2"
 BLOCK = rk.Block(2.0, 0.6)
 MODELS = "slender", "full"
+SCALES = np.linspace(0.3, 4.0, 38).tolist()
 
 
 class Case(NamedTuple):
@@ -74,20 +77,6 @@ def cases(count, seed, most=1.0):
         yield Case(float(rng.uniform(0.1, 0.35)), e, bool(k // 3 % 2), base, start)
 
 
-def switch(case):
-    """Return the two neighbouring scales of the first switch of the outcome; None if there is none."""
-    scales = np.linspace(0.3, 4.0, 38).tolist()
-    fell = [case.falls(scale) for scale in scales]
-    if fell[0] or not any(fell):
-        return None
-    place = fell.index(True)
-    low, high = scales[place - 1], scales[place]
-    while low < 0.5 * (low + high) < high:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if case.falls(middle) else (middle, high)
-    return low, high
-
-
 def compare(case, scale, method):
     """Return whether the block overturned, after a comparison of outcome and peak with another method."""
     motion, found = case.motion(scale), case.of_oracle(scale, method)
@@ -107,29 +96,14 @@ def test_sixty_motions_agree_with_dop853():
     """Twenty of them lie at either side of a switch of the outcome, at 1e-5 of the scale."""
     fallen = sum(compare(case, 1.0, oracle.with_dop853) for case in cases(40, 7))
     assert 5 < fallen < 35
-    compared = 0
-    for case in cases(200, 8):
-        if compared < 20 and (scales := switch(case)) is not None:
-            assert not compare(case, scales[0] * (1 - 1e-5), oracle.with_dop853)
-            compared += 1 + compare(case, scales[1] * (1 + 1e-5), oracle.with_dop853)
-    assert compared == 20
+    compare_beside_switches(cases(200, 8), SCALES, 20, partial(compare, method=oracle.with_dop853))
 
 
-def near_switches(seed, count, powers):
-    """Yield blocks under samples, at rest at first, and scales near a switch of the outcome."""
-    left = count
+def under_samples(count, seed):
+    """Yield blocks under samples, at rest at first, that lose a part of their speed at an impact."""
     for case in cases(100 * count, seed, most=0.9):
-        if isinstance(case.base, rk.Pulse) or case.start != rk.State() or case.e in (0.0, 1.0):
-            continue
-        if (scales := switch(case)) is None:
-            continue
-        for power in powers:
-            for sign in (-1, 1):
-                if left > 0:
-                    yield case, scales[1] * (1 + sign * 10.0**-power)
-                    left -= 1
-        if left == 0:
-            return
+        if not isinstance(case.base, rk.Pulse) and case.start == rk.State() and case.e not in (0.0, 1.0):
+            yield case
 
 
 @pytest.mark.parametrize(
@@ -138,7 +112,7 @@ def near_switches(seed, count, powers):
 )
 def test_no_certified_outcome_next_to_a_switch_is_wrong(count, powers):
     sure, fallen = 0, 0
-    for case, scale in near_switches(3, count, powers):
+    for case, scale in near_switches(under_samples(count, 3), SCALES, count, powers):
         motion = case.motion(scale)
         if motion.certified:
             base = case.base
@@ -153,7 +127,7 @@ def test_no_certified_outcome_next_to_a_switch_is_wrong(count, powers):
 
 def test_margin_has_the_sign_of_the_outcome_and_vanishes_at_a_switch():
     compared = 0
-    for case, scale in near_switches(5, 24, (5, 7)):
+    for case, scale in near_switches(under_samples(24, 5), SCALES, 24, (5, 7)):
         motion = case.motion(scale)
         assert (motion.margin > 0) == (motion.outcome == "overturned")
         assert abs(motion.margin) < 1e-2
