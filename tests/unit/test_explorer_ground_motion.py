@@ -333,8 +333,8 @@ def pictures(base, scale, workers, model="slender"):
 def test_every_point_of_the_map_is_that_of_the_rocking_spectrum(workers, model):
     found = pictures(SHORT, 1.3, workers, model)
     sides = [picture.side for picture in found]
-    assert (sides[0], sides[-1], sides) == (39, POINTS, sorted(sides))
-    assert {picture.side for picture in found if picture.whole} <= {39, 77, 153, POINTS}
+    assert (sides[0], sides[-1], sides) == (26, POINTS, sorted(sides))
+    assert {picture.side for picture in found if picture.whole} <= {26, 51, 101, POINTS}
     assert [picture.done for picture in found] == [False] * (len(found) - 1) + [True]
     places = np.arange(0, POINTS, 19)
     sizes, angles = MEASURE.sizes[places], np.radians(MEASURE.angles[places])
@@ -348,7 +348,7 @@ def test_every_point_of_the_map_is_that_of_the_rocking_spectrum(workers, model):
 def test_coarse_points_stay_in_the_finer_maps(workers, monkeypatch):
     monkeypatch.setattr("rocking.explorer.refinement.SHOWN_EVERY", 0.0)
     found = [picture for picture in pictures(SHORT, 1.3, workers) if picture.whole]
-    assert [picture.side for picture in found] == [39, 77, 153, POINTS]
+    assert [picture.side for picture in found] == [26, 51, 101, POINTS]
     for coarse, fine in itertools.pairwise(found):
         assert (fine.fields["peak"][::2, ::2] == coarse.fields["peak"]).all()
 
@@ -372,7 +372,7 @@ def test_pulse_in_the_map_is_that_of_one_simulation(kind, model):
             assert found["peak"][k] == pytest.approx(motion.peak, rel=1e-9)
 
 
-@pytest.mark.parametrize("side", [39, POINTS])
+@pytest.mark.parametrize("side", [26, POINTS])
 def test_blocks_lie_at_the_centres_of_their_cells_in_the_image(side):
     """The horizontal axis is logarithmic, so that all cells have the same ratio of their edges."""
     image = {name: values[0] for name, values in corner(*RANGES, side).items()}
