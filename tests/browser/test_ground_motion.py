@@ -387,7 +387,7 @@ def test_vertical_channel_and_friction_change_the_verdict_and_not_the_map(ground
     fill("prestress", "")
     settled(visitor, lambda: visitor.page.select_option("#vertical", "3"))
     assert visitor.text("kind") == "not computed"
-    assert "the block leaves the base" in visitor.text("evidence")
+    assert "the block leaves the base" in visitor.text("sentence")
     visitor.is_content()
 
 

@@ -663,7 +663,7 @@ def test_motion_with_too_many_events_is_not_shown_as_the_one_before(workers, mon
 
     link = run(visit())
     told = json.loads(link.verdict)
-    assert (told["kind"], told["margin"], told["facts"]) == ("not computed", "More than 3 events.", [])
+    assert (told["kind"], told["sentence"], told["facts"]) == ("not computed", "More than 3 events.", [])
     assert link.drawn["history"]["line"]["angle"].size == 0
     assert link.drawn["base"]["line"]["acceleration"].size > 0
 
@@ -704,7 +704,7 @@ def test_session_takes_vertical_motion_for_the_block_and_not_for_the_map(workers
     assert mapped[-1] == three[1].base
     assert verdict["kind"] == "not computed"
     assert re.fullmatch(
-        r"The base reaction vanishes at t = [\d.]+ s: the block leaves the base\.", verdict["margin"]
+        r"The base reaction vanishes at t = [\d.]+ s: the block leaves the base\.", verdict["sentence"]
     )
     assert (opened[0].vertical, list(opened[1])) == (None, ["vertical"])
 

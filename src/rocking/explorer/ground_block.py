@@ -46,7 +46,7 @@ def block_motion(view: GroundView, ground: Ground) -> tuple[Contents, dict[str, 
 def no_motion(view: GroundView, ground: Ground, reason: str) -> tuple[Contents, dict[str, Any]]:
     """Return figures without a motion, and the reason in place of the verdict."""
     words = {"kind": "not computed", "colour": "", "facts": [], "decided": True, "validity": []}
-    words |= {"margin": f"{reason[0].upper()}{reason[1:]}.", "certified": ""}
+    words |= {"sentence": _sentence(reason), "margin": "", "certified": ""}
     return _figures(view, ground, np.empty(0), np.empty(0), view.block.degrees(1.0)), words
 
 
