@@ -682,7 +682,10 @@ def test_session_takes_vertical_motion_for_the_block_and_not_for_the_map(workers
         monkeypatch.setattr(session, "change", at_once)
         monkeypatch.setattr(session, "refine", unrefined)
         monkeypatch.setattr(ground_page, "BlockEndings", lambda base, *_: mapped.append(base))
-        session._accept(DEFAULT.changed({"source": "file", "channel": "2", "scale": "1"}), three)
+        short = Ground(three[2].base.clipped(end=3.0))
+        session._accept(
+            DEFAULT.changed({"source": "file", "channel": "2", "scale": "1"}), (*three[:2], short)
+        )
         told = []
         for typed in ({"vertical": "1"}, {"vertical": "3"}, {"channel": "3"}):
             session.hear(json.dumps({"what": "fields", "fields": typed}))
