@@ -345,6 +345,53 @@ def test_restrainer_takes_effect_with_the_mass(ground):
 
 
 @pytest.mark.long
+def test_vertical_channel_and_friction_change_the_verdict_and_not_the_map(ground):
+    visitor = ground()
+    assert not visitor.page.is_visible("#vertical")
+    wave = 0.4 * np.sin(0.08 * np.arange(400)) * np.exp(-np.arange(400) / 150)
+    lines = "\n".join(write.csmip_v1([wave, -wave, 0.5 * wave[::-1]])).replace("270 Deg", "Up")
+    settled(visitor, lambda: drop(visitor, "three.v1", lines.encode()))
+    visitor.finished()
+    before = visitor.data("map")
+    assert visitor.page.inner_text("#vertical") == "none\n3: Up"
+    settled(visitor, lambda: visitor.page.select_option("#vertical", "3"))
+    assert "vertical=3" in visitor.page.url
+    ground, _, up = rk.read_ground_motions(lines.encode(), name="three.v1")
+    motion = rk.simulate(rk.Block(2.0, 0.5).system(ground, vertical=up))
+    angle = figure(visitor, "history")["angle"]
+    assert np.abs(angle).max() == pytest.approx(math.degrees(math.atan(0.25)) * motion.peak, rel=1e-4)
+
+    def fill(name, value):
+        visitor.page.fill(f"#{name}", value)
+        visitor.page.press(f"#{name}", "Enter")
+
+    settled(visitor, lambda: fill("friction", "0.2"))
+    assert visitor.text("kind") == "slides"
+    refusal = motion.validity(rk.Block(2.0, 0.5), friction=0.2).refusal
+    assert visitor.text("sentence").startswith(f"S{refusal[1:]}.")
+    assert visitor.text("left-out") == "The map is computed without vertical motion and friction."
+    assert (visitor.data("map"), visitor.page.get_attribute("body", "data-map")) == (before, "done")
+    visitor.see("ground-vertical")
+    settled(visitor, lambda: fill("friction", "0.8"))
+    assert "; 0.8 suffices." in visitor.text("evidence")
+    settled(visitor, lambda: fill("mass", "600"))
+    fill("prestress", "800")
+    visitor.until("document.getElementById('friction-refused').textContent !== ''")
+    assert visitor.text("vertical-refused") == "vertical must be omitted for a restrained block"
+    fill("friction", "")
+    visitor.until("document.getElementById('friction-refused').textContent === ''")
+    settled(visitor, lambda: visitor.page.select_option("#vertical", ""))
+    assert "prestress=800&mass=600" in visitor.page.url
+    assert visitor.text("left-out") == visitor.text("vertical-refused") == ""
+    settled(visitor, lambda: fill("scale", "50"))
+    fill("prestress", "")
+    settled(visitor, lambda: visitor.page.select_option("#vertical", "3"))
+    assert visitor.text("kind") == "not computed"
+    assert "the block leaves the base" in visitor.text("sentence")
+    visitor.is_content()
+
+
+@pytest.mark.long
 def test_block_against_a_wall_moves_to_one_side(ground):
     visitor = ground("?version=1&wall=0.5")
     assert facts(visitor)["e"] == "0.5 (wall)"

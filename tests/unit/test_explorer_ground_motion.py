@@ -5,6 +5,7 @@ import io
 import itertools
 import json
 import math
+import re
 import time
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
@@ -47,10 +48,12 @@ from rocking.explorer.ground_view import (
     open_file,
     read_file,
     thinned,
+    vertical_channels,
 )
 from rocking.explorer.jobs import Workers
 from rocking.explorer.refinement import Refinement
 from rocking.model.forcing import KINDS
+from rocking.model.quantity import FRICTION
 from rocking.model.validation import TooManyEvents
 from rocking.model.verdict import Outcome
 from rocking.records import read as reading_process
@@ -63,6 +66,10 @@ RANGES = Span(0.3, 3.0), Span(5.0, 40.0)
 WALL = {"wall": "0.5"}
 RESTRAINED = {"model": "slender", "stiffness": "2e4", "prestress": "800", "mass": "600"}
 """Fields of a block against a wall, and of a restrained one."""
+WAVE = 0.4 * np.sin(0.08 * np.arange(400)) * np.exp(-np.arange(400) / 150)
+THREE = "\n".join(write.csmip_v1([WAVE, -WAVE[:350], 0.5 * WAVE[::-1]])).replace("270 Deg", "Up").encode()
+"""File of two horizontal channels of different length and a vertical one."""
+UPWARD = {"source": "file", "vertical": "3"}
 MEASURE = Endings(*RANGES, BlockEndings(SHORT, 1.0, "slender"))
 
 
@@ -80,6 +87,8 @@ SHOWN = st.builds(
     units=st.sampled_from(["", "g", "cm/s²"]),
     step=st.none() | st.floats(1e-6, 1000),
     channel=st.integers(1, 9),
+    vertical=st.none() | st.integers(1, 9),
+    friction=st.none() | st.floats(*FRICTION.range),
     scale=st.floats(*SCALES),
     height=st.floats(0.1, 100),
     width=st.floats(0.101, 0.14),
@@ -135,6 +144,10 @@ def test_link_gives_the_view_back(shown):
         (RESTRAINED | {"stiffness": "1e6"}, "stiffness"),
         (RESTRAINED | {"wall": "0.5"}, "wall"),
         (RESTRAINED | {"offset": "0.05"}, "offset"),
+        ({"vertical": "up"}, "vertical"),
+        ({"friction": "0"}, "friction"),
+        (RESTRAINED | UPWARD, "vertical"),
+        (RESTRAINED | {"friction": "0.4"}, "friction"),
         ({"colour": "red"}, "page"),
     ],
 )
@@ -158,6 +171,20 @@ def test_mass_alone_restrains_no_block_and_a_link_without_it_says_so():
     view, refused = GroundView.from_address("?version=1&scale=2&model=slender&stiffness=2e4&prestress=3")
     assert (view.scale, view.block) == (2.0, DEFAULT.block)
     assert refused == {name: f"{name} needs the mass of the block" for name in ("stiffness", "prestress")}
+
+
+def test_vertical_motion_without_a_file_has_no_effect():
+    view = DEFAULT.changed(RESTRAINED | {"vertical": "3"})
+    assert (view.upward, view.left_out) == (None, "")
+    assert view.changed({"stiffness": "", "prestress": "", "source": "file"}).upward == 3
+
+
+@pytest.mark.parametrize(
+    "typed, names",
+    [({}, ""), (UPWARD, "vertical motion"), (UPWARD | {"friction": "0.4"}, "vertical motion and friction")],
+)
+def test_page_says_what_the_map_leaves_out(typed, names):
+    assert DEFAULT.changed(typed).left_out == (f"The map is computed without {names}." if names else "")
 
 
 def test_invalid_link_keeps_the_default_of_its_field_and_says_so():
@@ -314,6 +341,42 @@ def test_remark_tells_a_vertical_channel_and_a_drift():
     assert Ground(pushed).note == f"T{pushed.drift_doubt[1:]}." != "T."
 
 
+@pytest.fixture(scope="module")
+def three():
+    return read_file("three.v1", THREE, DEFAULT)
+
+
+def test_vertical_channel_is_that_of_the_file_and_ends_with_the_horizontal_one(three):
+    view = DEFAULT.changed(UPWARD)
+    assert vertical_channels(view, three) == {3: "Up"}
+    ground = ground_of(view, three)
+    assert (ground.base, ground.vertical, ground.note) == (three[0].base, three[2].base, three[0].note)
+    fact = dict(ground.words(2.0)["facts"])["vertical motion"]
+    up = 2.0 * three[2].base.acceleration / G
+    assert fact == f"Up, {up.min():.4g} to {up.max():.4g} g, positive upwards".replace("-", "−")
+    shorter = ground_of(view.changed({"channel": "2"}), three)
+    assert shorter.vertical == three[2].base.clipped(end=3.49)
+    assert shorter.base.duration == shorter.vertical.duration == 3.49
+    assert "The two components have 350 and 400 samples: both end at 3.49 s." in shorter.note
+
+
+@pytest.mark.parametrize("channel, vertical", [("1", "2"), ("1", "4"), ("3", "3")])
+def test_other_channel_than_a_vertical_one_is_refused(three, channel, vertical):
+    view = DEFAULT.changed({"source": "file", "channel": channel, "vertical": vertical})
+    with pytest.raises(Refused, match="must be a vertical channel of the file, other than") as caught:
+        ground_of(view, three)
+    assert list(caught.value.fields) == ["vertical"]
+
+
+def test_vertical_channel_with_another_step_is_refused_without_python(three):
+    coarse = Ground(three[2].base.resampled(0.02))
+    with pytest.raises(Refused) as caught:
+        ground_of(DEFAULT.changed(UPWARD), (*three[:2], coarse))
+    assert caught.value.fields == {
+        "vertical": "vertical must have the time step of the horizontal channel, 0.01 s; got 0.02 s"
+    }
+
+
 # ---- map
 
 
@@ -333,8 +396,8 @@ def pictures(base, scale, workers, model="slender"):
 def test_every_point_of_the_map_is_that_of_the_rocking_spectrum(workers, model):
     found = pictures(SHORT, 1.3, workers, model)
     sides = [picture.side for picture in found]
-    assert (sides[0], sides[-1], sides) == (39, POINTS, sorted(sides))
-    assert {picture.side for picture in found if picture.whole} <= {39, 77, 153, POINTS}
+    assert (sides[0], sides[-1], sides) == (26, POINTS, sorted(sides))
+    assert {picture.side for picture in found if picture.whole} <= {26, 51, 101, POINTS}
     assert [picture.done for picture in found] == [False] * (len(found) - 1) + [True]
     places = np.arange(0, POINTS, 19)
     sizes, angles = MEASURE.sizes[places], np.radians(MEASURE.angles[places])
@@ -348,7 +411,7 @@ def test_every_point_of_the_map_is_that_of_the_rocking_spectrum(workers, model):
 def test_coarse_points_stay_in_the_finer_maps(workers, monkeypatch):
     monkeypatch.setattr("rocking.explorer.refinement.SHOWN_EVERY", 0.0)
     found = [picture for picture in pictures(SHORT, 1.3, workers) if picture.whole]
-    assert [picture.side for picture in found] == [39, 77, 153, POINTS]
+    assert [picture.side for picture in found] == [26, 51, 101, POINTS]
     for coarse, fine in itertools.pairwise(found):
         assert (fine.fields["peak"][::2, ::2] == coarse.fields["peak"]).all()
 
@@ -372,7 +435,7 @@ def test_pulse_in_the_map_is_that_of_one_simulation(kind, model):
             assert found["peak"][k] == pytest.approx(motion.peak, rel=1e-9)
 
 
-@pytest.mark.parametrize("side", [39, POINTS])
+@pytest.mark.parametrize("side", [26, POINTS])
 def test_blocks_lie_at_the_centres_of_their_cells_in_the_image(side):
     """The horizontal axis is logarithmic, so that all cells have the same ratio of their edges."""
     image = {name: values[0] for name, values in corner(*RANGES, side).items()}
@@ -481,6 +544,49 @@ def test_restrained_block_with_the_full_equation_is_described_by_its_critical_an
     assert words["validity"] == ["Sliding and jumping of a restrained block are not checked."]
 
 
+@pytest.mark.parametrize("model", ["slender", "full"])
+def test_block_under_vertical_motion_is_that_of_the_simulation(three, model):
+    view = DEFAULT.changed(UPWARD | {"scale": "1.4", "model": model})
+    drawn, words = block_motion(view, ground_of(view, three))
+    ground, up = (three[place].base.scaled(1.4) for place in (0, 2))
+    motion = rk.simulate(view.block.system(ground, vertical=up, model=model))
+    plain = rk.simulate(view.block.system(ground, model=model))
+    assert abs(motion.peak - plain.peak) > 0.005
+    assert words["kind"] == "rocks and stands"
+    assert np.abs(drawn["history"]["line"]["angle"]).max() == pytest.approx(
+        view.block.degrees(motion.peak), rel=1e-4
+    )
+    assert dict(words["facts"])["lifts off at"].endswith("times the weight 1 + a_v")
+
+
+@pytest.mark.parametrize("typed", [{}, WALL, {"offset": "0.02"}, {"model": "slender"}])
+def test_block_with_too_little_friction_slides_and_has_no_rocking_verdict(typed):
+    view = DEFAULT.changed(typed | {"scale": "1.4"})
+    needed = _validity(view).friction
+    least = 0.9 * needed
+    _, words = block_motion(attrs.evolve(view, friction=least), Ground(SHORT))
+    refusal = _validity(view, least).refusal
+    assert words["kind"] == "slides"
+    assert words["sentence"].startswith(f"S{refusal[1:]}. The base accelerates")
+    assert (words["margin"], words["certified"]) == ("", "")
+    assert any(sentence.startswith("Sliding: the motion and its results") for sentence in words["validity"])
+    _, plain = block_motion(view, Ground(SHORT))
+    _, enough = block_motion(attrs.evolve(view, friction=1.1 * needed), Ground(SHORT))
+    told = f"Required coefficient of friction: {needed:.3g}"
+    assert (plain["validity"][0], enough["validity"][0]) == (
+        f"{told}.",
+        f"{told}; {1.1 * needed:g} suffices.",
+    )
+    assert {name: enough[name] for name in plain if name != "validity"} == {
+        name: value for name, value in plain.items() if name != "validity"
+    }
+
+
+def _validity(view, friction=None):
+    motion = rk.simulate(view.block.system(SHORT.scaled(view.scale), model=view.model))
+    return motion.validity(view.block, friction=friction)
+
+
 def test_full_equation_of_motion_has_a_margin_and_is_certified():
     shown = attrs.evolve(DEFAULT, source="file", scale=1.4, model="full")
     drawn, words = block_motion(shown, Ground(SHORT))
@@ -557,9 +663,53 @@ def test_motion_with_too_many_events_is_not_shown_as_the_one_before(workers, mon
 
     link = run(visit())
     told = json.loads(link.verdict)
-    assert (told["kind"], told["margin"], told["facts"]) == ("not computed", "More than 3 events.", [])
+    assert (told["kind"], told["sentence"], told["facts"]) == ("not computed", "More than 3 events.", [])
     assert link.drawn["history"]["line"]["angle"].size == 0
     assert link.drawn["base"]["line"]["acceleration"].size > 0
+
+
+def test_session_takes_vertical_motion_for_the_block_and_not_for_the_map(workers, monkeypatch, three):
+    mapped = []
+
+    async def at_once(change, *arguments):
+        change(*arguments)
+
+    async def unrefined(*_):
+        pass
+
+    async def visit():
+        session = GroundSession(Document(), workers)
+        monkeypatch.setattr(session, "change", at_once)
+        monkeypatch.setattr(session, "refine", unrefined)
+        monkeypatch.setattr(ground_page, "BlockEndings", lambda base, *_: mapped.append(base))
+        short = Ground(three[2].base.clipped(end=3.0))
+        session._accept(
+            DEFAULT.changed({"source": "file", "channel": "2", "scale": "1"}), (*three[:2], short)
+        )
+        told = []
+        for typed in ({"vertical": "1"}, {"vertical": "3"}, {"channel": "3"}):
+            session.hear(json.dumps({"what": "fields", "fields": typed}))
+            told.append(json.loads(session.link.refused)["fields"])
+        shown, told_view = session.view, json.loads(session.link.view)
+        await session.refine_map(shown, np.zeros(1, np.int64))
+        fallen = attrs.evolve(shown, scale=20.0)
+        await session.draw_motion(fallen, np.zeros(1, np.int64))
+        verdict = json.loads(session.link.verdict)
+        session.hear('{"what": "open", "fields": {"address": "?source=file&vertical=2&scale=1"}}')
+        opened = session.view, json.loads(session.link.refused)["fields"]
+        session.jobs.end_all()
+        return told, shown, told_view, verdict, opened
+
+    told, shown, told_view, verdict, opened = run(visit())
+    assert [list(each) for each in told] == [["vertical"], [], ["vertical"]]
+    assert (shown.channel, shown.vertical) == (2, 3)
+    assert (told_view["verticals"], told_view["left_out"]) == ([[3, "Up"]], shown.left_out)
+    assert mapped[-1] == three[1].base
+    assert verdict["kind"] == "not computed"
+    assert re.fullmatch(
+        r"The base reaction vanishes at t = [\d.]+ s: the block leaves the base\.", verdict["sentence"]
+    )
+    assert (opened[0].vertical, list(opened[1])) == (None, ["vertical"])
 
 
 @pytest.mark.parametrize(

@@ -30,6 +30,7 @@ from rocking.cli.requests import (
 )
 from rocking.model.block import Block
 from rocking.model.block_formulas import GRAVITY
+from rocking.model.changed_motion import same_end
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.intensity import PERIODS
 from rocking.model.record_set import RecordSet, intensity_of
@@ -151,14 +152,13 @@ def ground_motion(options: Options) -> tuple[GroundMotion, list[str]]:
         if "azimuth_deg" in options:
             refuse_vertical(ground, options)
             other = other_component(options)
-            if other.step == ground.step and other.times.size != ground.times.size:
-                ground, other = same_end(ground, other, sentences)
-            elif other.step != ground.step:
+            if other.step != ground.step:
                 steps = f"{ground.step:g} s and {other.step:g} s"
                 raise InvalidInput(
                     f"--azimuth-deg needs two components with the same step; got {steps} (resample one of them in Python, by "
                     f".resampled({min(ground.step, other.step):g}))"
                 )
+            ground, other = same_end(ground, other, sentences)
     floor = {"period": "--floor-period", "damping": "--floor-damping"}
     with refusals({**NAMES, **floor, "other": "the other component"}):
         if other is not None:
@@ -200,19 +200,7 @@ def with_vertical(
             f"--vertical needs a file with one vertical channel, or with one channel; got {len(found)} of {len(motions)} channels"
         )
     up = found[0].scaled(ground.factor)
-    if up.step == ground.step and up.times.size != ground.times.size:
-        return same_end(ground, up, sentences)
-    return ground, up
-
-
-def same_end(
-    ground: GroundMotion, other: GroundMotion, sentences: list[str]
-) -> tuple[GroundMotion, GroundMotion]:
-    """Return two components that end with the shorter one, and add a sentence on this."""
-    shorter = min(ground.duration, other.duration)
-    samples = f"{ground.times.size:,} and {other.times.size:,} samples"
-    sentences.append(f"the two components have {samples}: both end at {shorter:g} s")
-    return ground.clipped(end=shorter), other.clipped(end=shorter)
+    return same_end(ground, up, sentences) if up.step == ground.step else (ground, up)
 
 
 def check_direction(options: Options) -> None:

@@ -182,7 +182,7 @@ function pardon(input) {
 }
 
 function refuse({ fields }) {
-  all("input[aria-invalid]").forEach(pardon);
+  all("[aria-invalid]").forEach(pardon);
   const rest = [];
   for (const [name, sentence] of Object.entries(fields)) {
     const input = find(name), line = find(name + "-refused");

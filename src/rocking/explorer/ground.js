@@ -14,6 +14,8 @@ function show(view) {
   shown = view;
   const channel = find("channel");
   channel.replaceChildren(...view.channels.map((name, n) => new Option(name ? `${n + 1}: ${name}` : String(n + 1), n + 1)));
+  const verticals = view.verticals.map(([n, name]) => new Option(`${n}: ${name}`, n));
+  find("vertical").replaceChildren(new Option("none", ""), ...verticals);
   for (const [name, text] of Object.entries(view.fields)) {
     const field = document.querySelector(`#fields [name="${name}"]`);
     if (field && !field.dataset.typing) field.value = field.tagName === "INPUT" && document.activeElement !== field ? brief(text) : text;
@@ -29,6 +31,7 @@ function show(view) {
   models.base.title.setv({ text: `Acceleration of the base: ${view.ground.title}` }, { sync: false });
   find("ground-facts").replaceChildren(...rows(view.ground.facts));
   find("ground-note").textContent = view.ground.note;
+  find("left-out").textContent = view.left_out;
   outdate(view);
 }
 
@@ -38,6 +41,7 @@ function place(source) {
   const missing = source === "file" && (Boolean(find("file-refused").textContent) || shown?.fields.units || shown?.fields.step);
   for (const label of all("#fields [data-for]")) label.hidden = label.dataset.for !== source || (label.dataset.if === "missing" && !missing);
   find("channel-label").hidden = source !== "file" || (shown?.channels.length ?? 0) < 2;
+  find("vertical-label").hidden = source !== "file" || !shown?.verticals.length;
 }
 
 function refused(message) {
@@ -57,10 +61,11 @@ for (const field of all("#fields input:not([type]), #fields select")) {
   });
 }
 
-// A field as it is typed, with those of the restrained block that were refused before, because these fit only together.
-const TIED = ["model", "stiffness", "prestress", "mass"];
+// A field as it is typed, with those that were refused before and fit only together with it.
+const TIED = ["channel", "vertical", "model", "stiffness", "prestress", "mass", "friction"];
 function typed(field) {
-  const others = TIED.includes(field.name) ? TIED.map(find).filter(each => each.value !== brief(shown.fields[each.name])) : [];
+  const refused = each => !each.closest("label").hidden && each.value !== brief(shown.fields[each.name]);
+  const others = TIED.includes(field.name) ? TIED.map(find).filter(refused) : [];
   return Object.fromEntries([field, ...others].map(each => [each.name, each.value]));
 }
 

@@ -15,7 +15,7 @@ from rocking.model.verdict import Outcome
 from rocking.motion.model_warnings import restrained_warnings
 from rocking.motion.motion import Motion, end_shown, margin_speed
 from rocking.motion.simulate import simulate
-from rocking.motion.validity import compared, degrees_and_share
+from rocking.motion.validity import Validity, compared, degrees_and_share
 
 FEWEST, STEPS = 4_000, 20_000
 """Smallest and largest number of times at which the angle is computed before it is thinned."""
@@ -33,19 +33,20 @@ def block_motion(view: GroundView, ground: Ground) -> tuple[Contents, dict[str, 
     """Simulate the selected block under the scaled base motion; return the figures, and the verdict in words."""
     block, base = view.block, ground.scaled(view.scale)
     model, normalised_by = view.equation
-    motion = simulate(block.system(base, model=model, normalised_by=normalised_by))
+    up = None if ground.vertical is None else ground.vertical.scaled(view.scale)
+    motion = simulate(block.system(base, model=model, normalised_by=normalised_by, vertical=up))
     times, degrees = _history(motion, block, ground.sampled.times.size)
     fullest = max(float(np.abs(degrees).max()), 0.2 * block.degrees(1.0))
-    words = _words(motion, block)
+    words = _words(motion, block, view.friction)
     return _figures(view, ground, times, degrees, fullest), words | {
-        "sentence": f"{SENTENCES[words['kind']]}{factor_in_words(view)}{map_in_words(block)}"
+        "sentence": f"{words['sentence']}{factor_in_words(view)}{map_in_words(block)}"
     }
 
 
 def no_motion(view: GroundView, ground: Ground, reason: str) -> tuple[Contents, dict[str, Any]]:
     """Return figures without a motion, and the reason in place of the verdict."""
     words = {"kind": "not computed", "colour": "", "facts": [], "decided": True, "validity": []}
-    words |= {"margin": f"{reason[0].upper()}{reason[1:]}.", "certified": ""}
+    words |= {"sentence": _sentence(reason), "margin": "", "certified": ""}
     return _figures(view, ground, np.empty(0), np.empty(0), view.block.degrees(1.0)), words
 
 
@@ -74,24 +75,25 @@ def _history(motion: Motion, block: Block, samples: int) -> tuple[np.ndarray, np
     return thinned(block.seconds(times), block.degrees(angle))
 
 
-def _words(motion: Motion, block: Block) -> dict[str, Any]:
+def _words(motion: Motion, block: Block, friction: float | None) -> dict[str, Any]:
+    validity = None if block.restrainer else motion.validity(block, friction=friction)
     overturned, moves = motion.outcome == Outcome.OVERTURNED, motion.peak > 0.0
     kind, colour = "stands still", STILL
     if overturned:
         kind, colour = "overturns", FALLEN
     elif moves:
         kind, colour = "rocks and stands", ANGLES[min(int(motion.peak * len(ANGLES)), len(ANGLES) - 1)]
+    sentence = SENTENCES[kind]
+    if validity is not None and validity.refusal:
+        kind, colour, sentence = "slides", "", _sentence(validity.refusal)
     unit = with_unit(block, motion.system.normalised_by)
     right, left = (unit.acceleration(level) / GRAVITY for level in motion.system.lift_offs)
+    onset, other = f"{right:.4g} g", f", {left:.4g} g" if left < math.inf else ""
+    weight = "" if motion.system.vertical is None else ", times the weight 1 + a_v"
     facts: Facts = [
         ("block", f"{block.height:.4g} m × {block.width:.4g} m"),
         *_sides(block),
-        (
-            "lifts off at",
-            f"{right:.4g} g"
-            if block.left is None
-            else f"−{right:.4g} g" + (f", {left:.4g} g" if left < math.inf else ""),
-        ),
+        ("lifts off at", (onset if block.left is None else f"−{onset}{other}") + weight),
     ]
     if moves and not overturned:
         facts.append(("largest |θ|", degrees_and_share(block, motion.peak)))
@@ -102,10 +104,10 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
     facts += [row for row in (compared(motion),) if row[0]]
     return {
         "kind": kind,
-        "sentence": SENTENCES[kind],
+        "sentence": sentence,
         "colour": colour,
         "facts": facts,
-        **_evidence(motion, block),
+        **_evidence(motion, block, validity),
     }
 
 
@@ -158,8 +160,11 @@ def factor_in_words(view: GroundView) -> str:
     return f" The base accelerates {view.scale:.4g} times as much as in {motion.get(view.source, 'the synthetic motion')}."
 
 
-def _evidence(motion: Motion, block: Block) -> dict[str, Any]:
-    """Return margin, certificate and validity in words."""
+def _evidence(motion: Motion, block: Block, validity: Validity | None) -> dict[str, Any]:
+    """Return margin, certificate and validity in words; of a block that slides, the validity alone."""
+    sentences = _validity(motion, block, validity)
+    if validity is not None and validity.refusal:
+        return {"margin": "", "certified": "", "decided": True, "validity": sentences}
     certified = "Certified: no rounding error can have changed the outcome."
     if not motion.certified:
         certified = (
@@ -170,7 +175,7 @@ def _evidence(motion: Motion, block: Block) -> dict[str, Any]:
         "certified": certified,
         "decided": bool(motion.certified),
         "level": ": certified" if motion.certified else ": not certified",
-        "validity": _validity(motion, block),
+        "validity": sentences,
     }
 
 
@@ -189,16 +194,20 @@ def margin_in_words(motion: Motion, block: Block) -> str:
     return f"Closest to overturning at t = {time:.4g} s: the block lacked a speed of {speed}."
 
 
-def _validity(motion: Motion, block: Block) -> list[str]:
+def _validity(motion: Motion, block: Block, validity: Validity | None) -> list[str]:
     """Return the required friction, the error of the slender-block model and the warnings, as sentences."""
-    if block.restrainer is not None:
+    if validity is None:
         return [
             _sentence(each) for each in restrained_warnings(block, motion.peak, motion.system.restitution)
         ]
-    validity = motion.validity(block)
     friction = []
     if validity.friction is not None and math.isfinite(validity.friction):
-        friction = [f"Required coefficient of friction: {validity.friction:.3g}."]
+        available = validity.available_friction
+        enough = available is not None and validity.slides_from is None
+        friction = [
+            f"Required coefficient of friction: {validity.friction:.3g}"
+            + (f"; {available:g} suffices." if enough else ".")
+        ]
     elif validity.friction is not None:
         friction = ["No friction suffices, because the base reaction vanishes."]
     errors = []

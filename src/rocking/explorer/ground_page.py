@@ -27,13 +27,14 @@ from rocking.explorer.ground_view import (
     ground_of,
     open_file,
     read_file,
+    vertical_channels,
 )
 from rocking.explorer.jobs import Workers
 from rocking.explorer.page import Page
 from rocking.explorer.refinement import Picture, Refinement
 from rocking.explorer.session import Job, Session
 from rocking.model.forcing import KINDS
-from rocking.model.validation import TooManyEvents
+from rocking.model.validation import ContactLost, TooManyEvents
 from rocking.survey.ending_measures import BlockEndings
 
 LOST = "the link shows a file, which is not part of the link: choose the file again"
@@ -78,6 +79,13 @@ class GroundSession(Session):
             self._start_reading((self.pending or self.view).changed(typed | {"source": "file"}))
             return None, {}
         new, refused = super().answer(what, typed)
+        if new.source == "file" and self._has_read(new):
+            try:
+                ground_of(new, self.channels)
+            except Refused as unfit:
+                if what == "fields":
+                    raise
+                new, refused = attrs.evolve(new, vertical=None), refused | unfit.fields
         if new.source != "file" or self._has_read(new):
             return attrs.evolve(new, reading=self.view.reading), refused
         if what == "fields":
@@ -99,7 +107,7 @@ class GroundSession(Session):
         except ValueError as error:
             self.link.refuse(file=str(error))
             return
-        new = attrs.evolve(self.view, source="file", units="", step=None, channel=1)
+        new = attrs.evolve(self.view, source="file", units="", step=None, channel=1, vertical=None)
         self._start_reading(new.begun_from(self.view))
 
     def _start_reading(self, new: GroundView) -> None:
@@ -133,7 +141,7 @@ class GroundSession(Session):
 
     def place(self, changed: Callable[..., bool]) -> None:
         """Take the base motion, set the ranges of the map and mark the selected block."""
-        if changed("shaking"):
+        if changed("shaking", "upward"):
             self.ground = ground_of(self.view, self.channels)
         self._place_map(self.view)
         block = self.view.block
@@ -144,14 +152,16 @@ class GroundSession(Session):
             range_.update(start=span.low, end=span.high)
 
     def description(self) -> dict[str, Any]:
-        """Return the ranges of map and slider, the base motion and the block."""
+        """Return the ranges of map and slider, what the map leaves out, the base motion and the block."""
         view = self.view
         return {
             "sizes": [view.sizes.low, view.sizes.high],
             "angles": [view.angles.low, view.angles.high],
             "scales": SCALES,
+            "left_out": view.left_out,
             "ground": self.ground.words(view.scale),
             "channels": [each.name for each in self.channels],
+            "verticals": [*vertical_channels(view, self.channels).items()],
             "block": {
                 "height": view.height,
                 "width": view.width,
@@ -165,9 +175,10 @@ class GroundSession(Session):
     # the map
 
     async def refine_map(self, view: GroundView, stop: np.ndarray) -> None:
-        """Compute and draw the map, from coarse to fine."""
+        """Compute and draw the map of the horizontal motion, from coarse to fine."""
         self.finest = None
-        endings = await self.workers.soon(BlockEndings, self.ground.base, view.scale, *view.equation)
+        base = ground_of(attrs.evolve(view, vertical=None), self.channels).base
+        endings = await self.workers.soon(BlockEndings, base, view.scale, *view.equation)
         measure = Endings(view.sizes, view.angles, endings)
 
         def draw(picture: Picture) -> None:
@@ -201,7 +212,7 @@ class GroundSession(Session):
         """Draw the motion of the selected block and send its verdict."""
         try:
             drawn, words = await self.workers.soon(block_motion, view, self.ground)
-        except TooManyEvents as error:
+        except (TooManyEvents, ContactLost) as error:
             drawn, words = no_motion(view, self.ground, str(error))
         await self.change(self._draw_motion, drawn, words)
 
@@ -212,7 +223,10 @@ class GroundSession(Session):
     JOBS = (
         Job("map", refine_map, (*SHAKEN, "sizes", "angles"), ("map",)),
         Job(
-            "motion", draw_motion, (*SHAKEN, "height", "width", "offset", "wall", "restrainer"), ("verdict",)
+            "motion",
+            draw_motion,
+            (*SHAKEN, "upward", "height", "width", "offset", "wall", "restrainer", "friction"),
+            ("verdict",),
         ),
     )
 

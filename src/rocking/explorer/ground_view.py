@@ -15,12 +15,12 @@ from rocking.explorer.ground_maps import POINTS
 from rocking.model import quantity as quantities
 from rocking.model.block import Block, unit_for
 from rocking.model.block_formulas import GRAVITY, NORMALISATIONS, with_unit
-from rocking.model.changed_motion import STEPS
+from rocking.model.changed_motion import STEPS, same_end
 from rocking.model.forcing import KINDS, Pulse
 from rocking.model.ground_motion import GroundMotion, vertical_sentence
 from rocking.model.restrainer import LARGEST, MASSES, Restrainer
-from rocking.model.system import MODELS, Wall, critical_angle_for
-from rocking.model.validation import Refusal
+from rocking.model.system import MODELS, RESTRAINED, Wall, critical_angle_for
+from rocking.model.validation import Refusal, Text
 from rocking.records.read import example_ground_motion, read_apart
 from rocking.records.synthetic import synthetic_ground_motions
 
@@ -42,6 +42,8 @@ SLENDERNESS = (0.5, 54.0)
 NARROWEST = 1.001
 """Smallest ratio of the ends of a range, so that the points of a map differ clearly."""
 SEED = 1
+CHANNELS = 10_000
+"""Largest number of a channel."""
 MAX_FILE = 50_000_000
 """Largest file, in bytes."""
 READING = 5.0
@@ -74,6 +76,8 @@ class GroundView(View):
         Unit and time step, in s, of a file that does not state them.
     channel : int
         Channel of the file, counted from 1.
+    vertical : int or None
+        Channel of the file that is the vertical motion; None without it. It has no effect without a file.
     scale : float
         Factor of the base motion.
     height, width, offset : float
@@ -82,6 +86,8 @@ class GroundView(View):
         Coefficient of restitution of the wall against which the block stands; None without a wall.
     stiffness, prestress, mass : float or None
         Stiffness of the restrainer in N/m, its force in the block at rest in N, and the mass of the block in kg; None without it.
+    friction : float or None
+        Coefficient of friction between block and base; None if friction is not considered.
     model : str
         Equation of motion: "slender" or "full".
     normalised_by : str
@@ -100,7 +106,8 @@ class GroundView(View):
     duration: float = entry(1.0, number(0.01, 60.0))
     units: str = entry("", word(*UNITS))
     step: float | None = entry(None, optional(number(*STEPS)))
-    channel: int = entry(1, count(1, 10_000))
+    channel: int = entry(1, count(1, CHANNELS))
+    vertical: int | None = entry(None, optional(count(1, CHANNELS)))
     scale: float = entry(5.0, number(*SCALES))
     height: float = entry(2.0, number(*quantities.SIZES))
     width: float = entry(0.5, number(*quantities.SIZES))
@@ -109,6 +116,7 @@ class GroundView(View):
     stiffness: float | None = entry(None, optional(number(0.0, LARGEST)))
     prestress: float | None = entry(None, optional(number(0.0, LARGEST)))
     mass: float | None = entry(None, optional(number(*MASSES)))
+    friction: float | None = entry(None, optional(number(*quantities.FRICTION.range)))
     model: str = entry("full", word(*MODELS))
     normalised_by: str = entry("tangent", word(*NORMALISATIONS))
     sizes: Span = axis(Span(0.2, 10.0), *SIZES, distinct, ENDS)
@@ -139,6 +147,18 @@ class GroundView(View):
         }
         return (self.source, *chosen.get(self.source, ()))
 
+    @property
+    def upward(self) -> int | None:
+        """Channel of the vertical motion; None without it."""
+        return self.vertical if self.source == "file" else None
+
+    @property
+    def left_out(self) -> str:
+        """Sentence on what the map leaves out; empty if this is nothing."""
+        parts = {"vertical motion": self.upward, "friction": self.friction}
+        names = " and ".join(name for name, value in parts.items() if value is not None)
+        return f"The map is computed without {names}." if names else ""
+
     def changed(self, typed: Mapping[str, str]) -> GroundView:
         """Return the view with new values of some fields; another base motion is not scaled, but for that of the first view."""
         view = super().changed(typed)
@@ -168,6 +188,14 @@ class GroundView(View):
                 critical_angle_for(self.model, angle, self.width)
         except Refusal as error:
             raise self.refused(error) from None
+        parts = {"vertical": (self.upward, ""), "friction": (self.friction, ", whose sliding is not checked")}
+        unfit = {
+            name: f"{name} must {RESTRAINED}{why}"
+            for name, (value, why) in parts.items()
+            if value is not None
+        }
+        if unfit and self.restrainer is not None:
+            raise Refused(unfit)
         return self
 
     def at_point(self, size: float, degrees: float) -> dict[str, str]:
@@ -199,10 +227,13 @@ class Ground:
         Base motion in SI units.
     warnings : list of str
         Sentences of the reader of its file.
+    vertical : GroundMotion or None
+        Vertical motion, before its scale.
     """
 
     base: GroundMotion | Pulse
     warnings: list[str] = field(factory=list)
+    vertical: GroundMotion | None = None
 
     @cached_property
     def note(self) -> str:
@@ -254,6 +285,16 @@ class Ground:
             facts.append(("file", f"{motion.file.name}, {motion.file.format}, SHA-256 {digest}…"))
         return facts
 
+    def lifted(self, other: Ground) -> Ground:
+        """Return the record with another one as its vertical motion, both up to the end of the shorter one; Refused for other steps."""
+        base, up = self.sampled, other.sampled
+        if up.step != base.step:
+            allowed = f"have the time step of the horizontal channel, {base.step:g} s"
+            raise Refused({"vertical": str(Refusal("vertical", allowed, Text(f"{up.step:g} s")))})
+        sentences = [*dict.fromkeys((*self.warnings, *other.warnings))]
+        base, up = same_end(base, up, sentences)
+        return Ground(base, sentences, up)
+
     def scaled(self, scale: float) -> GroundMotion | Pulse:
         """Return the base motion times a factor."""
         if isinstance(self.base, GroundMotion):
@@ -273,6 +314,10 @@ class Ground:
             ("PGV", f"{scale * pgv:.4g} m/s"),
             *self.facts,
         ]
+        if self.vertical is not None:
+            up = scale * self.vertical.acceleration / GRAVITY
+            ends = f"{up.min():.4g} to {up.max():.4g} g".replace("-", "−")
+            facts.append(("vertical motion", f"{self.vertical.component}, {ends}, positive upwards"))
         name = self.name or "ground motion"
         return {
             "name": name,
@@ -306,14 +351,30 @@ def _example() -> GroundMotion:
 
 
 def ground_of(view: GroundView, channels: tuple[Ground, ...]) -> Ground:
-    """Return the base motion of a view; `channels` are those of the file that the session has read."""
+    """Return the base motion of a view; `channels` are those of the file that the session has read.
+
+    Refused if the vertical motion is none of the vertical channels, or if its time step is another one.
+    """
     if view.source == "pulse":
         return Ground(Pulse(view.kind, amplitude=view.amplitude * GRAVITY, duration=view.duration))
     if view.source == "file":
-        return channels[min(view.channel, len(channels)) - 1]
+        chosen = channels[min(view.channel, len(channels)) - 1]
+        if view.upward is None:
+            return chosen
+        if view.upward not in vertical_channels(view, channels):
+            raise Refused(
+                {"vertical": "vertical must be a vertical channel of the file, other than the horizontal one"}
+            )
+        return chosen.lifted(channels[view.upward - 1])
     if view.source == "example":
         return Ground(_example())
     return Ground(_synthetic()[int(view.source[-1]) - 1])
+
+
+def vertical_channels(view: GroundView, channels: tuple[Ground, ...]) -> dict[int, str]:
+    """Return the names of the vertical channels of a file, by their number, without the one that is the horizontal motion."""
+    numbered = enumerate((each.sampled for each in channels), 1)
+    return {place: each.component for place, each in numbered if each.vertical and place != view.channel}
 
 
 def read_file(name: str, data: bytes, view: GroundView) -> tuple[Ground, ...]:

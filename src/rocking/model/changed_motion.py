@@ -67,6 +67,18 @@ def checked_pair(
         raise Refusal(name, f"have {own}, as the {own_name}", Text(found), remedy)
 
 
+def same_end(
+    ground: GroundMotion, other: GroundMotion, sentences: list[str]
+) -> tuple[GroundMotion, GroundMotion]:
+    """Return two components with the same step that end with the shorter one; add a sentence on this if their lengths differ."""
+    if ground.times.size == other.times.size:
+        return ground, other
+    shorter = min(ground.duration, other.duration)
+    samples = f"{ground.times.size:,} and {other.times.size:,} samples"
+    sentences.append(f"the two components have {samples}: both end at {shorter:g} s")
+    return ground.clipped(end=shorter), other.clipped(end=shorter)
+
+
 class ChangedMotion:
     """Methods of a ground motion that make another one. Its `file` stays, and `changes` states what was done to the samples."""
 
