@@ -663,7 +663,11 @@ EDGES = """() => [...document.querySelectorAll(".plot")].map(each => each.getBou
     .map(({ left, top, width, height }) => [left, top, width, height])"""
 
 
-@pytest.mark.parametrize("page", ["", "ground-motion"])
+SLENDER = "ground-motion?version=1&source=example&scale=5&height=2&width=0.5&model=slender"
+"""Page of ground motions with slender blocks, whose map takes a second or two."""
+
+
+@pytest.mark.parametrize("page", ["", SLENDER], ids=["harmonic", "ground-motion"])
 def test_change_of_colours_leaves_no_line_at_the_edges_of_a_figure(visit, page):
     visitor = visit(1280, 1600)
     visitor.open(page)
@@ -694,7 +698,7 @@ def test_first_screen_of_a_phone_has_the_verdict_in_words_and_the_moving_block(v
     assert visitor.page.is_visible("#sentence")
 
 
-@pytest.mark.parametrize("page", ["", "ground-motion"])
+@pytest.mark.parametrize("page", ["", SLENDER], ids=["harmonic", "ground-motion"])
 def test_moving_block_is_as_large_as_the_map_and_beside_it(visit, page):
     visitor = visit()
     visitor.open(page)
