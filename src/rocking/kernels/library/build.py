@@ -174,7 +174,7 @@ def build(processors: list[str], target: Path) -> None:
     """Build the libraries of some classes of processors into a folder."""
     begun, sources = time.perf_counter(), hash_texts()
     target.mkdir(parents=True, exist_ok=True)
-    print(f"compiling the kernels for {', '.join(processors)}: a minute or two ...", flush=True)
+    print(f"compiling the kernels for {', '.join(processors)}: some minutes ...", flush=True)
     with TemporaryDirectory(prefix="rocking-") as folder, seconds_shown(begun):
         try:
             Compilers(Path(folder)).compile(GROUPS, processors)
