@@ -54,7 +54,11 @@ def workload():
     samples = np.random.default_rng(1).uniform(-3.0, 3.0, 400)
     bases = rk.PiecewiseLinear(samples, step=0.05), rk.Pulse("one-sine", amplitude=1.5, duration=2.0)
     full, left = {"critical_angle": 0.3}, {"left": rk.LeftSide(1.3, 0.98, 0.85)}
-    moving = [rk.simulate(rk.System(base, 0.8, **kind)) for base in bases for kind in ({}, full, left)]
+    restrained = full | {"stiffness_ratio": 0.3, "prestress_ratio": 0.2}
+    kinds = {}, full, left, restrained
+    moving = [rk.simulate(rk.System(base, 0.8, **kind)) for base in bases for kind in kinds]
+    lifted = rk.PiecewiseLinear(0.1 * samples, step=0.05)
+    moving.append(rk.simulate(rk.System(bases[0], 0.8, **full, vertical=lifted)))
     others = [rk.System(rk.Harmonic(3.0, period=1.0), 0.8, **kind) for kind in (full, left)]
     for moved in (*moving, *(rk.simulate(other, cycles=200) for other in others)):
         moved.at(np.linspace(0.0, moved.duration, 2_000))
@@ -75,7 +79,7 @@ def workload():
     pulses["amplitude"], pulses["restitution"] = np.linspace(1.0, 9.0, 50), 0.9
     pulses["frequency"], pulses["phase"], pulses["duration"] = 5.0, -np.pi / 2, 0.4 * np.pi
     pulses["critical_angle"] = 0.3
-    for kind in ({}, {"critical_angle": 0.3}, {"left": left.left}):
+    for kind in kinds:
         sampled, pulse = (parameters(rk.System(base, 0.8, **kind)) for base in bases)
         run_batch(sampled, runs, True, rows, never)
         run_pulses(pulse, pulses, True, rows, never)

@@ -43,34 +43,27 @@ def restrained_block(block, restrainer):
 
 
 @kernel
-def push_at_balance(restrainer):
-    """Return by what factor the base acceleration acts on a block near its unstable balance, over the rate there."""
-    return restrainer.cosine / restrainer.rate
+def restrained_samples(full, block, restrainer, tables, rate):
+    """Return a restrained system under samples, from the free one, its block and tables whose unit of time is smaller by a rate.
 
-
-@kernel
-def restrained_samples(full, restrainer, tables, rate):
-    """Return a restrained system under samples, from the free one and from tables whose unit of time is smaller by a rate."""
-    block, scale = restrained_block(full.block, restrainer), full.forcing.scale
+    Near the unstable balance the base acceleration acts by the factor cosine/rate. Also Python calls this, without the compiler.
+    """
+    scale = full.forcing.scale
     resting = Slender(full.resting.block, Samples(scale / block.level, full.forcing.tables), full.clock)
     balanced = Slender(
         SlenderBlock(block.restitution, math.inf, 1.0),
-        Samples(scale * push_at_balance(restrainer), tables),
+        Samples(scale * restrainer.cosine / restrainer.rate, tables),
         Clock(full.clock.cycle_length * rate),
     )
     return Restrained(block, full.forcing, full.clock, resting, restrainer, balanced)
 
 
 @kernel
-def restrained_pulse(full, restrainer):
-    """Return a restrained system under a pulse, from the free one."""
-    block, wave, duration = (
-        restrained_block(full.block, restrainer),
-        full.forcing.during,
-        full.forcing.duration,
-    )
+def restrained_pulse(full, block, restrainer):
+    """Return a restrained system under a pulse, from the free one and its block, as ``restrained_samples`` does."""
+    wave, duration = full.forcing.during, full.forcing.duration
     own = pulse_with(wave.amplitude / block.level, wave.frequency, wave.phase, duration, math.inf)
-    rate, amplitude = restrainer.rate, wave.amplitude * push_at_balance(restrainer)
+    rate, amplitude = restrainer.rate, wave.amplitude * restrainer.cosine / restrainer.rate
     there = pulse_with(amplitude, wave.frequency / rate, wave.phase, duration * rate, math.inf)
     balanced = Slender(
         SlenderBlock(block.restitution, math.inf, 1.0), there, Clock(full.clock.cycle_length * rate)
@@ -84,14 +77,17 @@ def with_run(p, run):
     """Provide ``contract.with_run``; the ratios of the restrainer and the tables of the balance are those of ``p``."""
     restrainer = restrainer_of(run.critical_angle, p.restrainer.stiffness, p.restrainer.prestress)
     rate = p.balanced.clock.cycle_length / p.clock.cycle_length
-    return restrained_samples(full_with_run(p, run), restrainer, p.balanced.forcing.tables, rate)
+    full = full_with_run(p, run)
+    block = restrained_block(full.block, restrainer)
+    return restrained_samples(full, block, restrainer, p.balanced.forcing.tables, rate)
 
 
 @body(contract.with_pulse, Restrained)
 def with_pulse(p, pulse):
     """Provide ``contract.with_pulse``; the ratios of the restrainer are those of ``p``."""
     restrainer = restrainer_of(pulse.critical_angle, p.restrainer.stiffness, p.restrainer.prestress)
-    return restrained_pulse(full_with_pulse(p, pulse), restrainer)
+    full = full_with_pulse(p, pulse)
+    return restrained_pulse(full, restrained_block(full.block, restrainer), restrainer)
 
 
 @body(contract.acceleration, Restrained, inline=True)
@@ -124,6 +120,13 @@ def escape_speed(p):
     return math.sqrt(2.0 * barrier) / alpha
 
 
+def _block_of(free: Full[Samples] | Full[Pulse], restrainer: Restrainer) -> FullBlock:
+    """Return ``restrained_block`` without the compiler."""
+    more, block = 1.0 + restrainer.prestress, free.block
+    right, left = (side._replace(press=more * side.press) for side in (block.right, block.left))
+    return block._replace(right=right, left=left, level=more * block.level)
+
+
 def restrained_under_samples(
     free: AnySampledParameters, restrainer: Restrainer, tables: Tables
 ) -> Restrained[Samples]:
@@ -132,10 +135,10 @@ def restrained_under_samples(
     ``tables`` are those of the samples with steps longer by the ``rate`` of the restrainer.
     """
     assert isinstance(free, Full)
-    return restrained_samples.py_func(free, restrainer, tables, restrainer.rate)
+    return restrained_samples.py_func(free, _block_of(free, restrainer), restrainer, tables, restrainer.rate)
 
 
 def restrained_under_pulse(free: AnyPulseParameters, restrainer: Restrainer) -> Restrained[Pulse]:
     """Return the system of a full block with a restrainer, from the free one."""
     assert isinstance(free, Full)
-    return restrained_pulse.py_func(free, restrainer)
+    return restrained_pulse.py_func(free, _block_of(free, restrainer), restrainer)
