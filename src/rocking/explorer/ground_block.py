@@ -182,7 +182,7 @@ def _evidence(motion: Motion, block: Block, validity: Validity | None) -> dict[s
 def margin_in_words(motion: Motion, block: Block) -> str:
     """Return how close the motion came to another outcome, as one sentence."""
     if math.isnan(motion.margin):
-        return "The block never lifts off."
+        return "No margin was found." if motion.peak > 0.0 else "The block never lifts off."
     size, time = abs(motion.margin), block.seconds(motion.margin_time)
     side = " of its side" if block.is_unsymmetric else ""
     unit = "" if block.by_balance else f"{size:.3g} α θcr{side} = "
