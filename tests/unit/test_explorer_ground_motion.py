@@ -621,6 +621,14 @@ def test_margin_is_the_speed_that_the_block_lacked_or_had_to_spare():
     spared = rk.simulate(block.system(pushed, model="slender"))
     assert spared.margin > 0
     assert "faster than it had to be" in margin_in_words(spared, block)
+    stiff = (
+        rk.Block(2.0, 0.6)
+        .restrained(2e5, 1500.0, mass=600.0)
+        .system(rk.example_ground_motion().scaled(pga=8.0))
+    )
+    without_balance = rk.simulate(stiff)
+    assert without_balance.peak > 0.0
+    assert margin_in_words(without_balance, stiff.block) == "No margin was found."
 
 
 # ---- session

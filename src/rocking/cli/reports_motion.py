@@ -464,7 +464,9 @@ def counted_impacts(motion: Motion) -> str:
 def margin_text(motion: Motion, block: Block) -> str:
     """Return the margin with its time, in words."""
     if math.isnan(motion.margin):
-        return "undefined " + ("between braces" if motion.system.braces else "for a block that never moves")
+        if motion.system.braces:
+            return "undefined between braces"
+        return "none was found" if motion.peak > 0.0 else "undefined for a block that never moves"
     known = abs(margin_speed(motion, block))
     speed = f"{math.degrees(known):.4g}°/s"
     if math.isnan(known):
