@@ -384,7 +384,7 @@ def test_vertical_channel_and_friction_change_the_verdict_and_not_the_map(ground
     assert "prestress=800&mass=600" in visitor.page.url
     assert visitor.text("left-out") == visitor.text("vertical-refused") == ""
     settled(visitor, lambda: fill("scale", "50"))
-    fill("prestress", "")
+    settled(visitor, lambda: fill("prestress", ""))
     settled(visitor, lambda: visitor.page.select_option("#vertical", "3"))
     assert visitor.text("kind") == "not computed"
     assert "the block leaves the base" in visitor.text("sentence")
