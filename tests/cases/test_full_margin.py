@@ -268,6 +268,27 @@ def certified(base, scale, e, angle):
 
 
 @pytest.mark.parametrize(
+    "angle, push, start", [(0.6, 4.0, 1.39), (0.6, 2.0, 1.54), (0.4, 4.0, 1.45), (0.25, 6.0, 1.5)]
+)
+@pytest.mark.parametrize("power", [6, 9, 12, 15])
+def test_base_that_could_raise_a_block_from_the_ground_does_not(angle, push, start, power):
+    """The block would lie flat for less than a step. It just comes to lie if its energy suffices."""
+
+    def potential(theta):
+        return math.cos(theta - angle) + push * math.sin(theta - angle)
+
+    speed = math.sqrt(2.0 * (potential(math.pi / 2) - potential(start)))
+    system = rk.System(rk.PiecewiseLinear(np.full(120, push / angle), step=0.05), 0.8, critical_angle=angle)
+    for sign in (-1, 1):
+        with pytest.warns(rk.InputWarning, match="beyond which a block overturns"):
+            state = rk.State(start / angle, (1 + sign * 10.0**-power) * speed / angle)
+        motion = rk.simulate(system, state)
+        assert power > 9 or motion.certified
+        assert power < 15 or not motion.certified
+        assert (motion.impacts == 0) == (sign > 0) or not motion.certified
+
+
+@pytest.mark.parametrize(
     ("count", "powers"),
     [(8, (6, 9, 12, 14)), pytest.param(2_000, range(3, 15), marks=pytest.mark.long)],
 )

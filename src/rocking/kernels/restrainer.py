@@ -19,9 +19,8 @@ from typing import NamedTuple
 
 from rocking.kernels.library.export import entry_point
 from rocking.kernels.library.kernel import kernel
-from rocking.kernels.numerics.elementary import cosine_of, sine_of
+from rocking.kernels.numerics.elementary import RIGHT_ANGLE, cosine_of, sine_of
 
-FLAT = 0.5 * math.pi
 # Halvings of the interval of a balance: its width is then 2e-15.
 HALVINGS = 50
 
@@ -60,13 +59,13 @@ def energy_between(alpha, kappa, rho, push, low, high):
 
 @kernel
 def balance_within(alpha, kappa, rho, push, halvings):
-    """Return an interval of the angle of the unstable balance under a constant push; both ends are FLAT if there is none below it.
+    """Return an interval of the angle of the unstable balance under a constant push; both ends are RIGHT_ANGLE if there is none below it.
 
     G >= 0 at its lower end and G <= 0 at its upper one. The first is at most the second, whatever the number of halvings.
     """
-    low, high = 0.0, FLAT
-    if torque(alpha, kappa, rho, push, FLAT) >= 0.0:
-        return FLAT, FLAT
+    low, high = 0.0, RIGHT_ANGLE
+    if torque(alpha, kappa, rho, push, RIGHT_ANGLE) >= 0.0:
+        return RIGHT_ANGLE, RIGHT_ANGLE
     for _ in range(halvings):
         middle = 0.5 * (low + high)
         if torque(alpha, kappa, rho, push, middle) >= 0.0:
@@ -90,7 +89,7 @@ def restrainer_of(critical_angle: float, stiffness: float, prestress: float) -> 
     excess = (max(abs(weight) - 1.0, 0.0) + push + force) / alpha
     low, high = balance_within(alpha, stiffness, prestress, 0.0, HALVINGS)
     balance, rate = 0.5 * (low + high), 1.0
-    if low == FLAT:
+    if low == RIGHT_ANGLE:
         return Restrainer(stiffness, prestress, weight, push, force, excess, math.inf, rate, 1.0)
     w = alpha - balance
     # -dG/dtheta, which is not 0: all parts of G fall

@@ -11,7 +11,7 @@ from rocking.kernels.arc.slender_cosine import ROUNDING, evaluate, exponentials
 from rocking.kernels.base.cosine import TURN, Cosine, forcing_rates, harmonic_term
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.library.kernel import body, kernel
-from rocking.kernels.numerics.elementary import fma, logarithm
+from rocking.kernels.numerics.elementary import RIGHT_ANGLE, fma, logarithm
 from rocking.kernels.numerics.taylor import I2, I4, I6, I8, reversion, series, within_a_factor_of_two
 from rocking.kernels.system import Slender
 
@@ -21,14 +21,13 @@ KNOWN, TIED = 1e-6, 1e-3
 # From this close, in units of 1/max(1, Omega), a Taylor series reaches a maximum to rounding. TRIES limits
 # the iterations.
 NEAR, TRIES = 0.03, 6
-RIGHT_ANGLE = 0.5 * math.pi
 
 
 @kernel(inline=True)
 def turn_event_function(p, sign):
     """Return the event function of an extremum of the angle: w = sign u', f_w = sign A Omega sin eta."""
-    half = 0.5 * math.pi if p.forcing.amplitude > 0.0 else math.inf
-    return EventFunction(0.0, 0.0, sign, sign * 0.5 * math.pi, half, p.forcing.amplitude > 0.0)
+    half = RIGHT_ANGLE if p.forcing.amplitude > 0.0 else math.inf
+    return EventFunction(0.0, 0.0, sign, sign * RIGHT_ANGLE, half, p.forcing.amplitude > 0.0)
 
 
 @body(contract.turn_from, Slender, Cosine)

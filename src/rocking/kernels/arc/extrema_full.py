@@ -1,13 +1,24 @@
-"""Largest angle along an arc of the full block, step by step."""
+"""Largest angle along an arc of the full block, step by step, and when it lies flat."""
+
+import math
 
 from rocking.kernels import contract
 from rocking.kernels.arc.arc import Arc, with_dip, with_low, within_reach
 from rocking.kernels.arc.first_zero_full import first_zero_of_step
-from rocking.kernels.arc.full_series import bend_0, derivative, divided_1, jerk
+from rocking.kernels.arc.full_series import bend_0, derivative, divided_1, jerk, negative
 from rocking.kernels.arc.full_step import state_in, step_from
-from rocking.kernels.contract import acceleration_of, drive_later, largest_within, parts_at_base, weight_of
+from rocking.kernels.contract import (
+    acceleration_of,
+    drive_later,
+    largest_ahead,
+    largest_within,
+    lightest_ahead,
+    parts_at_base,
+    weight_of,
+)
 from rocking.kernels.event_kinds import BRACE
 from rocking.kernels.library.kernel import body, kernel
+from rocking.kernels.numerics.elementary import RIGHT_ANGLE
 from rocking.kernels.system import Full, side_of
 
 # Rounding error of u'', relative to its parts.
@@ -20,6 +31,8 @@ MARGIN = 1e-12
 FAR_ABOVE = 1e-6
 # Halvings of a step to find the time of a minimum: the angle there is known to their square.
 HALVINGS = 26
+# Part of a right angle from which the largest angle of a step is computed.
+NEAR_FLAT = 0.9
 
 
 @kernel
@@ -175,6 +188,61 @@ def peak_in(p, arc, step, drive, h, peak):
     if step.velocity > h * bend:  # the angle only grows
         return max(peak, within_reach(p, step.angle + rise))
     return largest_on(p, Arc(arc.side, arc.start, step.angle, step.velocity, drive, arc.constants), h, peak)
+
+
+@kernel(inline=True)
+def may_lie(p, side, step, drive):
+    """Return whether a block may lie flat within a step, by a bound of u''."""
+    alpha, h = p.block.critical_angle, step.length
+    push = side_of(p.block, side).stiffness * (1.0 + alpha * largest_within(p, drive, h))
+    return alpha * (step.angle + max(step.velocity, 0.0) * h) + 0.5 * push * h * h >= RIGHT_ANGLE
+
+
+@kernel(inline=True)
+def lying_angle(p):
+    """Return the angle of a block that lies flat."""
+    return RIGHT_ANGLE / p.block.critical_angle
+
+
+@kernel
+def lying_time(p, step):
+    """Return the time in a step at which a block lies flat; infinity if it does not."""
+    return first_zero_of_step(lying_angle(p) - step.angle, -step.velocity, negative(step.series), step.length)
+
+
+@kernel
+def short_of_flat(p, arc, step, drive, h, end):
+    """Return a lower bound of the angle by which a block fails to lie flat within a time h of a step, at whose end is the angle ``end``."""
+    flat = lying_angle(p)
+    bend = bend_0(step.angle, step.velocity, step.series, h)
+    top = highest_possible(step, end - step.angle, bend, h)
+    if top > NEAR_FLAT * flat:
+        top = peak_in(p, arc, step, drive, h, step.angle)
+    return flat - top
+
+
+@kernel(inline=True)
+def may_be_raised(p, side, drive):
+    """Return whether the base may still raise a block that lies flat on a side: sigma a sin theta_cr > W cos theta_cr."""
+    own = side_of(p.block, side)
+    push, light = p.block.critical_angle * largest_ahead(p, side, drive), lightest_ahead(p, drive)
+    return push * own.sine > light * own.cosine
+
+
+@body(contract.flat_time, Full, inline=True)
+def flat_time(p, side, step, drive):
+    """Provide ``contract.flat_time``."""
+    if may_be_raised(p, side, drive) and may_lie(p, side, step, drive):
+        return lying_time(p, step)
+    return math.inf
+
+
+@body(contract.limits_within, Full, inline=True)
+def limits_within(p, arc, step, drive, h, end, extremes):
+    """Provide ``contract.limits_within``: by how much the block fails to lie flat, if the base may raise it again."""
+    if not (may_be_raised(p, arc.side, drive) and may_lie(p, arc.side, step, drive)):
+        return extremes
+    return with_low(extremes, min(extremes.low, short_of_flat(p, arc, step, drive, h, end)))
 
 
 @body(contract.largest_before, Full, inline=True)

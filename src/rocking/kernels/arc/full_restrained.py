@@ -20,12 +20,9 @@ import math
 
 from rocking.kernels import contract
 from rocking.kernels.arc.arc import with_low
-from rocking.kernels.arc.extrema_full import highest_possible, peak_in
-from rocking.kernels.arc.first_zero_full import first_zero_of_step
+from rocking.kernels.arc.extrema_full import lying_time, may_lie, short_of_flat
 from rocking.kernels.arc.full_base import largest_of_samples, near_in_pulse
 from rocking.kernels.arc.full_series import (
-    bend_0,
-    negative,
     restrained_cosine_series,
     restrained_cosine_transfer,
     restrained_series,
@@ -35,17 +32,16 @@ from rocking.kernels.arc.full_series import (
 )
 from rocking.kernels.base.cosine import Pulse
 from rocking.kernels.base.samples import Samples, interval
-from rocking.kernels.contract import acceleration_of, largest_ahead, largest_within, wave_of
+from rocking.kernels.contract import acceleration_of, largest_ahead, wave_of
 from rocking.kernels.library.kernel import body, kernel
-from rocking.kernels.restrainer import FLAT, balance_within, energy_between, torque
+from rocking.kernels.numerics.elementary import RIGHT_ANGLE
+from rocking.kernels.restrainer import balance_within, energy_between, torque
 from rocking.kernels.system import Restrained
 
 # Halvings of the interval of a balance in a proof, which counts its width.
 HALVINGS = 30
 # Safety margin of an energy over rounding, relative to it and to the parts of the torque.
 MARGIN, NOISE = 1e-12, 2.0**-46
-# Part of a right angle from which the largest angle of a step is computed.
-NEAR = 0.9
 # Least square of the cosine of half an angle: beyond pi, which no arc reaches, the series stays finite.
 LEAST = 1e-30
 
@@ -159,11 +155,7 @@ def no_lightest(p, drive):
 @body(contract.flat_time, Restrained, inline=True)
 def flat_time(p, side, step, drive):
     """Provide ``contract.flat_time``: the restrainer may raise a block that lies flat, which the ground does not let it."""
-    alpha, h = p.block.critical_angle, step.length
-    push = 1.0 + alpha * largest_within(p, drive, h)
-    if alpha * (step.angle + max(step.velocity, 0.0) * h) + 0.5 * push * h * h < FLAT:
-        return math.inf
-    return first_zero_of_step(FLAT / alpha - step.angle, -step.velocity, negative(step.series), h)
+    return lying_time(p, step) if may_lie(p, side, step, drive) else math.inf
 
 
 @body(contract.limits_within, Restrained)
@@ -172,12 +164,7 @@ def limits_within(p, arc, step, drive, h, end, extremes):
 
     Nothing need separate motions that just lie flat from those that just do not. And errors may grow at another rate than e^t.
     """
-    flat = FLAT / p.block.critical_angle
-    bend = bend_0(step.angle, step.velocity, step.series, h)
-    top = highest_possible(step, end - step.angle, bend, h)
-    if top > NEAR * flat:
-        top = peak_in(p, arc, step, drive, h, step.angle)
-    return with_low(extremes, min(extremes.low, extremes.dip, flat - top))
+    return with_low(extremes, min(extremes.low, extremes.dip, short_of_flat(p, arc, step, drive, h, end)))
 
 
 @body(contract.never_returns, Restrained)
@@ -185,9 +172,9 @@ def never_returns(p, side, angle, velocity, drive):
     """Provide ``contract.never_returns`` by the proof of the module's text."""
     alpha, own = p.block.critical_angle, p.restrainer
     theta, speed = alpha * angle, alpha * velocity
-    if theta >= FLAT:
+    if theta >= RIGHT_ANGLE:
         return True
-    kappa, rho, top = own.stiffness, own.prestress, min(own.balance, FLAT)
+    kappa, rho, top = own.stiffness, own.prestress, min(own.balance, RIGHT_ANGLE)
     spare = 0.5 * speed * speed
     # Most blocks are far too slow, whatever the base does.
     if theta < top and (speed <= 0.0 or spare < energy_between(alpha, kappa, rho, 0.0, theta, top)):

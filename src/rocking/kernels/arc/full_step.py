@@ -107,18 +107,6 @@ def growth_of(p, stiffness):
     return stiffness
 
 
-@body(contract.flat_time, Full, inline=True)
-def flat_time(p, side, step, drive):
-    """Provide ``contract.flat_time``: a block that lies flat does not rise again."""
-    return math.inf
-
-
-@body(contract.limits_within, Full, inline=True)
-def no_limits(p, arc, step, drive, h, end, extremes):
-    """Provide ``contract.limits_within``: minima alone count."""
-    return extremes
-
-
 @body(contract.acceleration_near, Full, inline=True)
 def acceleration_near_place(p, side, sine, change, drive, radius):
     """Provide ``contract.acceleration_near``: |sin w| and |cos w| are at most exp |w - w0|."""

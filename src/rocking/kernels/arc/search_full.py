@@ -29,7 +29,7 @@ from rocking.kernels.arc.arc import (
     Transfer,
     with_reached,
 )
-from rocking.kernels.arc.extrema_full import may_turn_up, peak_in, with_minimum
+from rocking.kernels.arc.extrema_full import lying_angle, may_turn_up, peak_in, with_minimum
 from rocking.kernels.arc.first_zero_full import first_zero_of_step
 from rocking.kernels.arc.full_series import derivative, negative
 from rocking.kernels.arc.full_step import cannot_reach_base, state_in, step_from, transfer_in
@@ -47,10 +47,15 @@ from rocking.kernels.contract import (
 )
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
 from rocking.kernels.library.kernel import body, kernel
-from rocking.kernels.numerics.elementary import arctangent, hypotenuse, sine_of, tangent_of
+from rocking.kernels.numerics.elementary import (
+    RIGHT_ANGLE,
+    arctangent,
+    hypotenuse,
+    sine_of,
+    tangent_of,
+)
 from rocking.kernels.system import Full, side_of
 
-FLAT = 0.5 * math.pi
 # Least mean of du''/du with which perturbations are followed.
 SLOWEST_GROWTH = 0.01
 
@@ -59,7 +64,7 @@ SLOWEST_GROWTH = 0.01
 def never_returns(p, side, angle, velocity, drive):
     """Provide ``contract.never_returns`` by the bound of the module's text."""
     alpha, own = p.block.critical_angle, side_of(p.block, side)
-    if alpha * angle >= FLAT:
+    if alpha * angle >= RIGHT_ANGLE:
         return True
     x, slope = alpha * (angle - own.ratio), alpha * velocity / own.rate
     # Most blocks are far too slow, whatever the base does. With beta >= 0, r >= 1 and y = -x, 2 sin(y/2) >= y - y^3/24. If r < 1, a
@@ -207,7 +212,7 @@ def first_event(p, arc, peak, with_lows):
         growth, part = growth + h * stiffness, (h / step.length) ** 4
         steps += part * part
         rise, velocity = state_in(step, h)
-        end = 0.0 if t < math.inf else angle + rise
+        end = 0.0 if t < math.inf else lying_angle(p) if lies else angle + rise
         if with_lows and may_turn_up(p, arc.side, step, drive, h, end, velocity):
             seen = with_minimum(p, arc.side, step, drive, h, end, velocity, elapsed, seen)
         if with_lows and not lies:

@@ -276,7 +276,7 @@ def samples_hold_level(p, drive, coming, left_level):
     return False
 
 
-@kernel
+@kernel(seldom=True)
 def rest_is_sure(p, arc, coming):
     """Return whether the end of a rest is the same, however the base acceleration and the levels of lift-off were rounded."""
     q, left_level = contract.resting(p)

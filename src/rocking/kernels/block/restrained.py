@@ -10,9 +10,9 @@ from rocking.kernels.base.cosine import Pulse, pulse_with
 from rocking.kernels.base.samples import Samples
 from rocking.kernels.contract import acceleration_of
 from rocking.kernels.library.kernel import body, kernel
-from rocking.kernels.numerics.elementary import cosine_of, sine_of
+from rocking.kernels.numerics.elementary import RIGHT_ANGLE, cosine_of, sine_of
 from rocking.kernels.numerics.replace_fields import replacing
-from rocking.kernels.restrainer import FLAT, Restrainer, energy_between, restrainer_of
+from rocking.kernels.restrainer import Restrainer, energy_between, restrainer_of
 from rocking.kernels.system import (
     AnyPulseParameters,
     AnySampledParameters,
@@ -116,7 +116,7 @@ def parts_at_base(p, side, weight):
 def escape_speed(p):
     """Provide ``contract.escape_speed``: from the energy up to the unstable balance, or to where the block lies flat."""
     alpha, own = p.block.critical_angle, p.restrainer
-    barrier = energy_between(alpha, own.stiffness, own.prestress, 0.0, 0.0, min(own.balance, FLAT))
+    barrier = energy_between(alpha, own.stiffness, own.prestress, 0.0, 0.0, min(own.balance, RIGHT_ANGLE))
     return math.sqrt(2.0 * barrier) / alpha
 
 

@@ -394,10 +394,13 @@ def to_end_in_batch(p, angle, want_peak):
 
     If the arc of the least estimate has no margin, the motion is followed again, and the margin of each arc is computed.
     """
-    end = to_end(p, angle, 0.0, math.inf, True, want_peak, False)
-    if math.isnan(end.margin) and not math.isnan(end.margin_time):
-        return to_end(p, angle, 0.0, math.inf, True, want_peak, True)
-    return end
+    each = False
+    while True:
+        # One place of call, so that LLVM puts ``to_end`` and all that it calls into one function: a fifth less time.
+        end = to_end(p, angle, 0.0, math.inf, True, want_peak, each)
+        if each or not (math.isnan(end.margin) and not math.isnan(end.margin_time)):
+            return end
+        each = True
 
 
 # Left side of the block (``system.LeftSide``); zeros for equal sides, and an infinite first ratio for a wall.

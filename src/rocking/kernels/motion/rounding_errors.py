@@ -22,9 +22,11 @@ from typing import NamedTuple
 
 from rocking.kernels import contract
 from rocking.kernels.arc.arc import ROUNDING
+from rocking.kernels.arc.extrema_full import lying_angle
 from rocking.kernels.arc.full_step import ERROR
 from rocking.kernels.block.restitution import bend_within
 from rocking.kernels.contract import (
+    acceleration,
     forcing_term,
     growth_constant,
     heaviest_ahead,
@@ -158,12 +160,21 @@ def spread_of(c):
     return DEVIATIONS * math.sqrt(max(c.uu, c.vv))
 
 
+@kernel
+def would_fall_on(p, arc, coming, at_event):
+    """Return whether a block that lies flat would have turned further by more than the error of u, that is by v^2/(-2 u'')."""
+    back = -acceleration(p, arc.side, coming.angle, coming.drive)
+    return back <= 0.0 or exceeds(0.5 * coming.velocity * coming.velocity / back, at_event.uu)
+
+
 @body(contract.end_is_sure, Full)
 def end_of_full_is_sure(p, arc, coming, error, at_event):
     """Provide ``contract.end_is_sure``: the error at the end is small, and there overturning is certain for all motions within it."""
     spread = spread_of(at_event)
     if not spread < LINEAR:
         return False
-    return coming.wait < math.inf or never_returns(
+    if coming.wait < math.inf or never_returns(
         p, arc.side, coming.angle - spread, coming.velocity - spread, coming.drive
-    )
+    ):
+        return True
+    return coming.angle == lying_angle(p) and would_fall_on(p, arc, coming, at_event)

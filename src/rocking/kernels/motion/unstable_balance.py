@@ -50,6 +50,7 @@ from rocking.kernels.contract import (
 )
 from rocking.kernels.library.kernel import body, kernel
 from rocking.kernels.numerics.elementary import (
+    RIGHT_ANGLE,
     arctangent,
     cosine_of,
     exponential,
@@ -67,7 +68,6 @@ FAR, FAR_IN_BATCH, CLEAR = 2.0**32, 2.0**14, 2.0**8
 SETTLED, SETTLED_IN_BATCH = 1e-11, 1e-4
 # Length of a step of ``brief_linear_series``: the error of a step is below 1e-11.
 LONGEST = 0.1
-FLAT = 0.5 * math.pi
 # |x| at which a pass is given up, although no proof excludes that the motion comes back to the balance.
 UPSIDE_DOWN = math.pi
 
@@ -230,7 +230,7 @@ def is_unique(p, arc):
     if light <= 0.0:
         return False
     largest = alpha * contract.largest_push(p) / light
-    return largest < 1.0 and alpha * side_of(p.block, arc.side).ratio + arctangent(largest) < FLAT
+    return largest < 1.0 and alpha * side_of(p.block, arc.side).ratio + arctangent(largest) < RIGHT_ANGLE
 
 
 @kernel(inline=True)

@@ -50,7 +50,7 @@ COSH_SERIES = (
 # 2**20 quadrants.
 HALF_PI = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21)
 TWO_OVER_PI = 2.0 / math.pi
-EIGHTH_TURN = 0.25 * math.pi
+EIGHTH_TURN, RIGHT_ANGLE = 0.25 * math.pi, 0.5 * math.pi
 # Up to here the three parts suffice. A larger angle is first reduced by whole turns; 2 pi in two parts of 53 bits.
 LARGE_ANGLE = 1e6
 TURN = (6.283185307179586, 2.4492935982947064e-16)
@@ -363,7 +363,7 @@ def angle_of(y, x):
     if x == 0.0 and y == 0.0:
         return math.copysign(math.pi if math.copysign(1.0, x) < 0.0 else 0.0, y)
     if x == 0.0:
-        return math.copysign(0.5 * math.pi, y)
+        return math.copysign(RIGHT_ANGLE, y)
     angle = arctangent(y / x)
     return angle if x > 0.0 else math.copysign(math.pi, y) + angle
 
