@@ -280,12 +280,16 @@ def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right:
 def _pair(
     ax: Axes, levels: tuple[float, float], colour: str, dashes: str, name: str, *, at_right: bool
 ) -> None:
-    """Draw lines at minus the first and plus the second level, with a name above: at the left under a record, which begins weakly."""
-    for side, level in zip((-1.0, 1.0), levels, strict=True):
-        ax.axhline(side * level, color=colour, linestyle=dashes, linewidth=style.LINE, gid=name)
+    """Draw lines at minus the first and plus the second level, the finite ones, with a name above the last.
+
+    The name is at the left under a record, which begins weakly.
+    """
+    drawn = [level for level in (-levels[0], levels[1]) if math.isfinite(level)]
+    for level in drawn:
+        ax.axhline(level, color=colour, linestyle=dashes, linewidth=style.LINE, gid=name)
     ax.text(
         1.0 if at_right else 0.01,
-        levels[1],
+        drawn[-1],
         name,
         transform=ax.get_yaxis_transform(),
         ha="right" if at_right else "left",
