@@ -1,7 +1,9 @@
 """Switches of the outcome: scales of a base motion between which a block begins to overturn.
 
-A case has ``falls(scale)``, whether it overturns at a scale.
+A case has ``motion(scale)``, ``falls(scale)``, whether it overturns at a scale, and ``falls_exactly(scale)``, by 50 digits.
 """
+
+import pytest
 
 
 def switch(case, scales):
@@ -47,3 +49,34 @@ def near_switches(cases, scales, count, powers):
                 left -= 1
                 if left == 0:
                     return
+
+
+def agrees(motion, found, unit=1.0):
+    """Return whether the block overturned, after a comparison of outcome and peak with another method, in units of that method."""
+    fell = motion.outcome == "overturned"
+    assert found.overturned == fell
+    assert fell or found.peak == pytest.approx(unit * motion.peak, rel=0, abs=1e-6)
+    return fell
+
+
+def certified_near_switches(cases, scales, count, powers, least):
+    """Return the cases near a switch with a certified outcome, after a comparison; most are certified, at least a share ``least``."""
+    sure, fallen = [], 0
+    for case, scale in near_switches(cases, scales, count, powers):
+        motion = case.motion(scale)
+        if motion.certified:
+            exact = case.falls_exactly(scale)
+            assert exact == (motion.outcome == "overturned")
+            sure, fallen = [*sure, case], fallen + exact
+    assert least * count < len(sure) < count
+    assert 0 < fallen < len(sure)
+    return sure
+
+
+def check_margins_near_switches(cases, scales, count=24, powers=(5, 7)):
+    """Check that the margin has the sign of the outcome, and vanishes at a switch."""
+    motions = [case.motion(scale) for case, scale in near_switches(cases, scales, count, powers)]
+    assert len(motions) == count
+    for motion in motions:
+        assert (motion.margin > 0) == (motion.outcome == "overturned")
+        assert abs(motion.margin) < 1e-2

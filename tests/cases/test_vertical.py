@@ -22,7 +22,7 @@ from rocking.kernels.base.samples import SampledDrive
 from rocking.motion import march_loop
 from rocking.motion.trajectory import side_at
 from rocking.motion.validity import base_reaction
-from switches import compare_beside_switches, near_switches
+from switches import agrees, certified_near_switches, check_margins_near_switches, compare_beside_switches
 
 RECORD = Path(__file__).parents[3] / "shared" / "records" / "20161113_110259_WTMC_20.V2A"
 BLOCK = rk.Block(2.0, 0.6)
@@ -109,6 +109,10 @@ class Case(NamedTuple):
         base = oracle.Base(self.push * (scale * self.alpha), self.lift, self.step)
         return oracle.follow(block, base, self.start.angle, self.start.velocity)
 
+    def falls_exactly(self, scale):
+        angle, how = self.alpha if self.full else 0.0, {"wall": self.left is not None, "vertical": self.lift}
+        return full_taylor.Block(self.push, self.step, scale, self.e, angle, **how).overturns()
+
 
 def cases(count, seed):
     """Yield random blocks under random samples, some unsymmetric or against a wall; the weight is between 0.1 and 1.9."""
@@ -129,11 +133,7 @@ def cases(count, seed):
 
 def compare(case, scale):
     """Return whether the block overturned, after a comparison of outcome and peak with the other method."""
-    motion, found = case.motion(scale), case.of_oracle(scale)
-    fell = motion.outcome == "overturned"
-    assert found.overturned == fell
-    assert fell or found.peak == pytest.approx(motion.peak, rel=0, abs=1e-6)
-    return fell
+    return agrees(case.motion(scale), case.of_oracle(scale))
 
 
 @pytest.mark.parametrize("number", range(6))
@@ -161,30 +161,11 @@ def from_rest(count, seed):
     [(16, (4, 8, 12, 14)), pytest.param(400, range(3, 15), marks=pytest.mark.long)],
 )
 def test_no_certified_outcome_next_to_a_switch_is_wrong(count, powers):
-    sure, fallen = 0, 0
-    for case, scale in near_switches(from_rest(count, 3), SCALES, count, powers):
-        motion = case.motion(scale)
-        if motion.certified:
-            angle = case.alpha if case.full else 0.0
-            wall = case.left is not None
-            block = full_taylor.Block(
-                case.push, case.step, scale, case.e, angle, wall=wall, vertical=case.lift
-            )
-            exact = block.overturns()
-            assert exact == (motion.outcome == "overturned")
-            sure, fallen = sure + 1, fallen + exact
-    assert 0.5 * count < sure < count
-    assert 0 < fallen < sure
+    certified_near_switches(from_rest(count, 3), SCALES, count, powers, least=0.5)
 
 
 def test_margin_has_the_sign_of_the_outcome_and_vanishes_at_a_switch():
-    compared = 0
-    for case, scale in near_switches(from_rest(24, 5), SCALES, 24, (5, 7)):
-        motion = case.motion(scale)
-        assert (motion.margin > 0) == (motion.outcome == "overturned")
-        assert abs(motion.margin) < 1e-2
-        compared += 1
-    assert compared == 24
+    check_margins_near_switches(from_rest(24, 5), SCALES)
 
 
 def bounded_speed(case, scale, begun, side, guess):

@@ -11,7 +11,7 @@ import pytest
 import rocking as rk
 from oracles import full_taylor
 from oracles import unsymmetric as oracle
-from switches import compare_beside_switches, near_switches
+from switches import agrees, certified_near_switches, check_margins_near_switches, compare_beside_switches
 
 RECORD = Path(__file__).parents[3] / "shared" / "records" / "NGA_no_1063_RRS228.AT2"
 BLOCK = rk.Block(2.0, 0.6)
@@ -60,6 +60,10 @@ class Case(NamedTuple):
         block = oracle.Block((self.alpha,) * 2, (1.0, 1.0), (self.e,) * 2, self.full, wall=True)
         return method(block, shaking, self.start.angle, self.start.velocity, self.until)
 
+    def falls_exactly(self, scale):
+        base, angle = self.base, self.alpha if self.full else 0.0
+        return full_taylor.Block(base.values, base.step, scale, self.e, angle, wall=True).overturns()
+
 
 def cases(count, seed, most=1.0):
     """Yield random blocks under samples and pulses; every tenth is elastic or inelastic."""
@@ -79,11 +83,7 @@ def cases(count, seed, most=1.0):
 
 def compare(case, scale, method):
     """Return whether the block overturned, after a comparison of outcome and peak with another method."""
-    motion, found = case.motion(scale), case.of_oracle(scale, method)
-    fell = motion.outcome == "overturned"
-    assert found.overturned == fell
-    assert fell or found.peak == pytest.approx(motion.peak, rel=0, abs=1e-6)
-    return fell
+    return agrees(case.motion(scale), case.of_oracle(scale, method))
 
 
 @pytest.mark.parametrize("number", range(12))
@@ -111,28 +111,11 @@ def under_samples(count, seed):
     [(16, (4, 8, 12, 14)), pytest.param(700, range(3, 15), marks=pytest.mark.long)],
 )
 def test_no_certified_outcome_next_to_a_switch_is_wrong(count, powers):
-    sure, fallen = 0, 0
-    for case, scale in near_switches(under_samples(count, 3), SCALES, count, powers):
-        motion = case.motion(scale)
-        if motion.certified:
-            base = case.base
-            samples = np.array([float(value) for value in base.values])
-            angle = case.alpha if case.full else 0.0
-            exact = full_taylor.Block(samples, base.step, scale, case.e, angle, wall=True).overturns()
-            assert exact == (motion.outcome == "overturned")
-            sure, fallen = sure + 1, fallen + exact
-    assert 0.6 * count < sure < count
-    assert 0 < fallen < sure
+    certified_near_switches(under_samples(count, 3), SCALES, count, powers, least=0.6)
 
 
 def test_margin_has_the_sign_of_the_outcome_and_vanishes_at_a_switch():
-    compared = 0
-    for case, scale in near_switches(under_samples(24, 5), SCALES, 24, (5, 7)):
-        motion = case.motion(scale)
-        assert (motion.margin > 0) == (motion.outcome == "overturned")
-        assert abs(motion.margin) < 1e-2
-        compared += 1
-    assert compared == 24
+    check_margins_near_switches(under_samples(24, 5), SCALES)
 
 
 # Scale of the record, peak |theta|/theta_cr; an independent brute force in physical units (RK4, dt/20 to dt/100).

@@ -173,6 +173,13 @@ def test_margin_has_the_sign_of_what_it_says(rocking):
     assert "the block had" in told(rocking, f"record push.csv {SIZE} --model slender")[1]
 
 
+def test_block_that_moves_may_have_no_margin(rocking):
+    tied = "--restrainer-stiffness 2e5 --restrainer-prestress 1500 --mass 600"
+    text = told(rocking, f"record example --height 2 --width 0.6 {tied} --pga-g 0.8")[1]
+    assert "largest |θ| 4.554°" in text
+    assert "margin K none was found" in text
+
+
 def test_motion_without_losses_is_followed_for_the_length_of_the_record(rocking):
     line = f"record pulse.csv {SIZE} --restitution 1"
     first, text = told(rocking, f"{line} --brace-angle 0.5 --model slender")

@@ -338,7 +338,10 @@ def test_remark_tells_a_vertical_channel_and_a_drift():
         "The component Up is vertical, and the base moves horizontally: choose a horizontal component."
     )
     pushed = rk.GroundMotion([0.0, 1.0, 0.0], step=0.1)
-    assert Ground(pushed).note == f"T{pushed.drift_doubt[1:]}." != "T."
+    doubt, advice, _ = pushed.drift_doubt.partition(", or for example baseline=")
+    assert advice
+    assert Ground(pushed).note == f"T{doubt[1:]}."
+    assert doubt.endswith(": use a corrected record")
 
 
 @pytest.fixture(scope="module")

@@ -167,3 +167,9 @@ def test_figure_of_a_restrained_block_is_drawn_in_units_of_its_balance():
     motion = rk.simulate(block.system(rk.example_ground_motion().scaled(pga=20.0), model="slender"))
     said = rk.plot.time_history(motion, block=block).get_title("right")
     assert said == r"overturns, drawn to 3 $\theta_\mathrm{u}$"
+    labels = [ax.get_xlabel() + ax.get_ylabel() for ax in rk.plot.overview(motion, block=None).axes]
+    assert all(r"\theta/\theta_\mathrm{u}" in label for label in labels[::2])
+    assert r"\tau = \alpha\sqrt{1 - \kappa}\,t" in labels[1]
+    assert r"$(1 + \rho)\,g\,\tan\theta_\mathrm{cr}$" in labels[1]
+    (last,) = rk.plot.overview(rk.simulate(motion.system, record="none"), block=None).axes
+    assert r"\theta/\theta_\mathrm{u}" in last.get_xlabel()

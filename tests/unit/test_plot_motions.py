@@ -168,6 +168,15 @@ def test_block_gives_the_base_in_metres_per_square_second():
     assert sorted(levels) == pytest.approx([-9.80665 * 0.25, 9.80665 * 0.25])  # g tan θcr
 
 
+def test_block_against_a_wall_has_one_line_of_the_base_acceleration_that_lifts_it_off():
+    block = rk.Block(2.0, 0.5, wall=rk.Wall(0.5))
+    motion = rk.simulate(block.system(rk.example_ground_motion().scaled(pga=6.0)))
+    figure = rk.plot.overview(motion)
+    figure.draw_without_rendering()  # matplotlib warns of a text at infinity
+    lines = [line for line in figure.axes[1].lines if line.get_gid() == "lift-off from rest"]
+    assert [line.get_ydata()[0] for line in lines] == pytest.approx([-9.80665 * 0.25])
+
+
 def test_pulse_stands_below_the_angle():
     pulse = rk.Pulse("half-sine", amplitude=3.0, duration=2.0)
     _, when, base = panel(rk.plot.time_history(rk.simulate(rk.System(pulse, restitution=0.9))))

@@ -241,7 +241,8 @@ class Ground:
         if not isinstance(self.base, GroundMotion):
             return ""
         vertical = vertical_sentence([self.base.component]) if self.base.vertical else ""
-        sentences = filter(None, (*self.warnings, vertical, self.base.drift_doubt))
+        drift = self.base.drift_doubt.partition(", or for example ")[0]  # the page removes no baseline
+        sentences = filter(None, (*self.warnings, vertical, drift))
         return " ".join(f"{each[0].upper()}{each[1:]}." for each in sentences)
 
     @cached_property

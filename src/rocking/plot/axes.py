@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from attrs import frozen
+from attrs import evolve, frozen
 
 from rocking.model.block import Block
 from rocking.model.quantity import SYSTEM_QUANTITIES
@@ -63,10 +63,10 @@ NORMALISED = Units(
 )
 
 
-def units_of(block: Block | None) -> Units:
-    """Return normalised quantities, or, for a `block`, seconds, degrees and degrees per second."""
+def units_of(block: Block | None, own: Block | None = None) -> Units:
+    """Return seconds, degrees and degrees per second for a `block`, or else normalised quantities, in the units of an `own` block."""
     if block is None:
-        return NORMALISED
+        return NORMALISED if own is None else _normalised(own)
     instance("block", block, Block)
     return Units(
         time=block.seconds,
@@ -84,6 +84,18 @@ def units_of(block: Block | None) -> Units:
         density_label=r"power spectral density $S_\theta$ (°²/Hz)",
         time_unit="s",
         reading="t = {:.{}f} s    θ = {:{}}°",
+    )
+
+
+def _normalised(own: Block) -> Units:
+    """Return normalised quantities with the units of a block in the labels."""
+    rate, force = (r"\alpha\sqrt{1 - \kappa}\,", r"(1 + \rho)\,") if own.by_balance else (r"\alpha ", "")
+    level = r"g\,\tan\theta_\mathrm{cr}" if own.normalised_by == "tangent" else r"g\theta_\mathrm{cr}"
+    return evolve(
+        NORMALISED,
+        time_label=rf"time $\tau = {rate}t$",
+        angle_label=rf"angle $\Theta = \theta/{balance_symbol(own)}$",
+        base_label=f"acceleration\nof base (${force}{level}$)",
     )
 
 

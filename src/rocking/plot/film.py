@@ -464,6 +464,7 @@ def animation(
     Small angles are exaggerated, and the displacement of the base is scaled to a visible size; the animation shows both
     factors. The displacement of a sampled base is its acceleration, integrated twice from rest. The animation states the
     drift, the displacement when the acceleration ends. A fall follows Eq. (4) (Yim & Lin 1991), which holds for small angles, up to 90°.
+    A block in the film never slides. `Motion.validity` states the friction that this needs.
 
     Examples
     --------

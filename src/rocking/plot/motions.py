@@ -216,7 +216,7 @@ def _outcome(motion: Motion) -> str:
 
 def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
     """Draw the base acceleration from time `start` to `stop`, in τ, and the accelerations that lift a block off if it comes near."""
-    forcing, units = motion.system.forcing, units_of(block)
+    forcing, units = motion.system.forcing, units_of(block, motion.block)
     time = np.linspace(start, stop, SAMPLES_PER_PICTURE)  # also at a jump, where no sample is
     if isinstance(forcing, PiecewiseLinear):
         samples = forcing.step * np.arange(forcing.values.size)
@@ -248,7 +248,7 @@ def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block 
 def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
     """Draw the angle from time `start` to `stop`, in τ."""
     time, angle, _ = trace(motion, start, stop)
-    units = units_of(block)
+    units = units_of(block, motion.block)
     _guides(ax, motion.system, units, float(np.abs(angle).max()), at_right=has_cycles(motion))
     ax.plot(
         units.time(time),
@@ -280,12 +280,16 @@ def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right:
 def _pair(
     ax: Axes, levels: tuple[float, float], colour: str, dashes: str, name: str, *, at_right: bool
 ) -> None:
-    """Draw lines at minus the first and plus the second level, with a name above: at the left under a record, which begins weakly."""
-    for side, level in zip((-1.0, 1.0), levels, strict=True):
-        ax.axhline(side * level, color=colour, linestyle=dashes, linewidth=style.LINE, gid=name)
+    """Draw lines at minus the first and plus the second level, the finite ones, with a name above the last.
+
+    The name is at the left under a record, which begins weakly.
+    """
+    drawn = [level for level in (-levels[0], levels[1]) if math.isfinite(level)]
+    for level in drawn:
+        ax.axhline(level, color=colour, linestyle=dashes, linewidth=style.LINE, gid=name)
     ax.text(
         1.0 if at_right else 0.01,
-        levels[1],
+        drawn[-1],
         name,
         transform=ax.get_yaxis_transform(),
         ha="right" if at_right else "left",
@@ -357,7 +361,7 @@ def phase_portrait(
     breaks = 1 + np.flatnonzero((np.diff(time) == 0) & (np.diff(velocity) != 0))
     events = inside(result.events, start, stop)
     events = events[np.isin(events["kind"], list(STRIKES))]
-    units = units_of(block)
+    units = units_of(block, result.block)
     ax = style.own(ax, height=3.0)
     ax.plot(
         units.angle(np.insert(angle, breaks, np.nan)),
@@ -444,8 +448,7 @@ def overview(result: Motion, block: Block | None = None) -> Figure:
     >>> len(rk.plot.overview(rk.simulate(system, cycles=200)).axes)
     2
     """
-    instance("result", result, Motion)
-    units_of(block)  # refused before there is a figure
+    units = units_of(block, instance("result", result, Motion).block)  # refused before there is a figure
     if result.record != "all":
         figure, (ax,) = style.panels(height=3.0)
         kept = (
@@ -453,6 +456,7 @@ def overview(result: Motion, block: Block | None = None) -> Figure:
         )
         forcing = result.system.forcing
         section(kept, ax, block, phase=forcing.phase if isinstance(forcing, Harmonic) else None)
+        style.label(ax, units.angle_label, units.velocity_label)
         return figure
     if not has_cycles(result):
         return _with_base(result, block)
