@@ -55,7 +55,7 @@ ROW = {
     "certified": "whether no rounding error can have changed the outcome",
     "peak": "largest absolute angle in units of theta_cr; infinite if the block overturns",
     "top_displacement": ("largest displacement of the top of the block; NaN if it overturns", "m"),
-    "margin": "margin of the closest lift-off or impact in units of alpha theta_cr; NaN if the block never moves",
+    "margin": "margin of the closest lift-off or impact in units of alpha theta_cr; NaN if there is none, as of a block at rest",
     "friction": "smallest coefficient of friction without sliding, of both directions if both count; NaN if it was not assessed",
     "slides": "whether the friction does not suffice",
     "other_overturned": "whether the block overturns by the other equation of motion",

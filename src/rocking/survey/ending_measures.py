@@ -71,7 +71,7 @@ VARIABLES = (
         {
             "long_name": "K+ of least size over all lift-offs and impacts",
             "units": "1",
-            "comment": "negative: lacked to overturn there; NaN: the block never moves",
+            "comment": "negative: lacked to overturn there; NaN: none, such as of a block that never moves",
         },
     ),
     Variable(
