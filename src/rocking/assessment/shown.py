@@ -368,8 +368,7 @@ def record_files(each: Assessment) -> Shown:
         file = motion.file
         rows.append(
             (
-                name,
-                "–" if file is None else file.name,
+                name if file is None or name.startswith(file.name) else f"{name} ({file.name})",
                 "–" if file is None else ", ".join(filter(None, (file.format, file.channel))),
                 "–" if file is None else f"{file.sha256[:DIGITS_OF_DIGEST]}…",
                 f"{motion.times.size:,}",
@@ -378,5 +377,5 @@ def record_files(each: Assessment) -> Shown:
                 f"{motion.factor:.4g}",
             )
         )
-    heads = ("record", "file", "format", "SHA-256 of the file", "samples", "step (s)", "length (s)", "factor")
-    return Shown(heads, rows, 4)
+    heads = ("record", "format", "SHA-256 of the file", "samples", "step (s)", "length (s)", "factor")
+    return Shown(heads, rows, 3)
