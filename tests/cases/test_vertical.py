@@ -489,3 +489,9 @@ def test_command_follows_the_vertical_channel_of_a_file(tmp_path, monkeypatch, c
     code, refused = typed("9")
     assert code == 2
     assert refused.startswith("the weight vanishes at t = ")
+    code, refused = typed("1.5", "--restrainer-stiffness", "4e4", "--mass", "600")
+    assert (code, refused.strip()) == (2, "--vertical must be omitted for a restrained block")
+    Path("b.csv").write_text("time [s],acceleration [m/s2]\n0,0\n0.01,1\n0.02,0\n")
+    code, refused = typed("1.5")
+    assert code == 2
+    assert refused.startswith("--vertical needs two components with the same step; got 0.02 s and 0.01 s")

@@ -92,7 +92,7 @@ def record(options: Options) -> Request:
     check_friction(options)
     ground, sentences = ground_motion(options)
     ground, vertical = with_vertical(ground, options, sentences)
-    with refusals({**NAMES, "vertical": "the record of --vertical"}):
+    with refusals({**NAMES, "vertical": "--vertical"}):
         grounds = [ground if sign > 0 else ground.reversed() for sign in directions(options)]
         how = {**select(options, "model", "normalised_by"), "vertical": vertical}
         systems = [block.system(each, braces=braces, **how) for each in grounds]
@@ -140,6 +140,15 @@ def check_scaling(options: Options) -> None:
         raise InvalidInput("give --scale or --pga-g, not both")
 
 
+def check_step(name: str, ground: GroundMotion, other: GroundMotion) -> None:
+    """Raise InvalidInput if two components, which the option `name` needs, have different steps."""
+    if other.step != ground.step:
+        raise InvalidInput(
+            f"{option(name)} needs two components with the same step; got {ground.step:g} s and {other.step:g} s (resample one of "
+            f"them in Python, by .resampled({min(ground.step, other.step):g}))"
+        )
+
+
 def ground_motion(options: Options) -> tuple[GroundMotion, list[str]]:
     """Return the ground motion of the options, scaled, and the warnings of the reader; InvalidInput if invalid."""
     from rocking.records.read import read_ground_motion
@@ -152,12 +161,7 @@ def ground_motion(options: Options) -> tuple[GroundMotion, list[str]]:
         if "azimuth_deg" in options:
             refuse_vertical(ground, options)
             other = other_component(options)
-            if other.step != ground.step:
-                steps = f"{ground.step:g} s and {other.step:g} s"
-                raise InvalidInput(
-                    f"--azimuth-deg needs two components with the same step; got {steps} (resample one of them in Python, by "
-                    f".resampled({min(ground.step, other.step):g}))"
-                )
+            check_step("azimuth_deg", ground, other)
             ground, other = same_end(ground, other, sentences)
     floor = {"period": "--floor-period", "damping": "--floor-damping"}
     with refusals({**NAMES, **floor, "other": "the other component"}):
@@ -200,7 +204,8 @@ def with_vertical(
             f"--vertical needs a file with one vertical channel, or with one channel; got {len(found)} of {len(motions)} channels"
         )
     up = found[0].scaled(ground.factor)
-    return same_end(ground, up, sentences) if up.step == ground.step else (ground, up)
+    check_step("vertical", ground, up)
+    return same_end(ground, up, sentences)
 
 
 def check_direction(options: Options) -> None:

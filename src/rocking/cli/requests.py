@@ -275,6 +275,8 @@ def restrainer_of(options: Options) -> dict[str, Any]:
     require(options, (RESTRAINER[:2], ("mass",)), "--restrainer-stiffness and --mass")
     if "friction" in options:
         raise InvalidInput("--friction must be omitted for a restrained block, whose sliding is not checked")
+    if "vertical" in options:
+        raise InvalidInput("--vertical must be omitted for a restrained block")
     names = {name.removeprefix("restrainer_"): option(name) for name in RESTRAINER}
     with refusals(names):
         values = {"restrainer_stiffness": 0.0, "restrainer_prestress": 0.0} | given
