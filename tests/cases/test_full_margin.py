@@ -1,9 +1,11 @@
 """Margin of the full block, and its certified outcomes, against single motions by SciPy, the slender block and many digits."""
 
 import math
+import warnings
 from functools import partial
 from itertools import pairwise
 
+import flint
 import mpmath as mp
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from rocking.kernels.library.kernel import kernel
 from rocking.kernels.motion.finite_motion import ENDING_ROW, RUN_ROW, run_batch, run_to_end
 from rocking.kernels.motion.march import OVERTURNED
 from rocking.motion.march_loop import parameters
+from rocking.motion.motion import end_shown
 
 rng = np.random.default_rng(7)
 LEFT = rk.LeftSide(1.35, 0.95, 0.6)
@@ -286,6 +289,69 @@ def test_base_that_could_raise_a_block_from_the_ground_does_not(angle, push, sta
         assert power > 9 or motion.certified
         assert power < 15 or not motion.certified
         assert (motion.impacts == 0) == (sign > 0) or not motion.certified
+
+
+def lies_down(angle, step, pushes, lifts, start):
+    """Return whether a block that starts at an angle with a speed lies flat before it comes back to the base, with 50 digits."""
+    with flint.ctx.workdps(full_taylor.DIGITS):
+        block = full_taylor.Block(pushes, step, 1.0, 0.8, angle, vertical=lifts)
+        (u, v), half = map(flint.arb, start), block.step / 2
+        for k in range(2 * (len(pushes) - 1)):
+            here, t = k // 2, half * (k % 2)
+            (push, rate), (weight, lift) = (
+                (one[here], (one[here + 1] - one[here]) / block.step) for one in (block.values, block.weights)
+            )
+            c = full_taylor.series(block.alpha, 1, u, v, push + rate * t, rate, weight + lift * t, lift)
+            if block.lies_flat(c, half):
+                return True
+            u, v = map(full_taylor.middle, full_taylor.value(c, half))
+            if u < 0:
+                return False
+    raise AssertionError("the block neither lies flat nor comes back")
+
+
+@pytest.mark.parametrize("kind", ["equal sides", "unequal sides", "wall", "vertical"])
+def test_certified_blocks_that_just_lie_flat_do(kind):
+    rng, ratio, rate, step, size, checked = np.random.default_rng(5), 1.0, 1.0, 0.05, 100, 0
+    while checked < 6:
+        angle, side = rng.uniform(0.3, 0.7), 1
+        how = {"left": rk.Wall(0.8)} if kind == "wall" else {}
+        if kind == "unequal sides":
+            ratio, rate, side = rng.uniform(0.6, 1.5), rng.uniform(0.7, 1.3), -1
+            how = {"left": rk.LeftSide(ratio, rate, 0.8)}
+        noise = rng.uniform(-0.3, 0.3, (2, size))
+        pushes = rng.uniform(2.0, 4.0) / math.tan(angle * ratio) / angle * (1.0 + noise[0])
+        lifts = np.zeros(size)
+        if kind == "vertical":
+            lifts = noise[1]
+            how = {"vertical": rk.PiecewiseLinear(lifts, step=step)}
+        system = rk.System(rk.PiecewiseLinear(side * pushes, step=step), 0.8, critical_angle=angle, **how)
+        start = (math.pi / 2 - 10.0 ** rng.uniform(-3.0, -0.5)) / angle
+
+        def motion(speed, system=system, side=side, start=start):
+            with warnings.catch_warnings(action="ignore", category=rk.InputWarning):
+                return rk.simulate(system, rk.State(side * start, side * speed))
+
+        low, high = 0.0, 8.0 / angle
+        while low < 0.5 * (low + high) < high:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if motion(middle).impacts else (low, middle)
+        for change in (-1e-6, 1e-6, -1e-10, 1e-10, -1e-14, 1e-14):
+            speed = (1.0 + change) * low
+            found = motion(speed)
+            exact = lies_down(
+                angle * ratio, step * rate, pushes / ratio, lifts, (start / ratio, speed / ratio / rate)
+            )
+            assert abs(change) < 1e-9 or (found.impacts == 0) == exact
+            assert not found.certified or (found.impacts == 0) == exact
+            assert found.certified or abs(change) < 1e-9
+            if not found.impacts and found.lying_time < math.inf:
+                assert end_shown(found) == found.overturning.time
+                assert found.at(found.overturning.time + 1.0) == (
+                    pytest.approx(side * math.pi / 2 / angle, rel=1e-12),
+                    0.0,
+                )
+        checked += 1
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 The base may also move vertically, which multiplies the weight of the block. A full block may have a restrainer on its centre line with the
 ratios kappa of its stiffness and rho of its force: theta'' = -[sin w + a cos w + kappa sin theta + rho sin(alpha) cos(theta/2)] for
-theta > 0. It then overturns where it reaches a right angle.
+theta > 0. A full block overturns where it reaches a right angle.
 
 Nothing is taken from the package. The first zero of a step is that of its polynomial in doubles, refined with all digits.
 """
@@ -159,11 +159,11 @@ class Block:
             zero = first_zero(c, h)
             if zero is None:
                 stride = self.step - t if at_end else flint.arb(h)
-                if self.restrained and self.lies_flat(c, stride):
+                if not self.slender and self.lies_flat(c, stride):
                     return True
                 u, v = map(middle, value(c, stride))
                 k, t = (k + 1, flint.arb(0)) if at_end else (k, middle(t + stride))
-                if alpha * u > 1.6 or (self.slender and u > 1e6):
+                if self.slender and u > 1e6:
                     return True
                 continue
             speed = -e * value(c, zero)[1]

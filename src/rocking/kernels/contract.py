@@ -337,7 +337,7 @@ def parts_at_base(p, side, weight):
 
 @contract
 def flat_time(p, side, step, drive):
-    """Return the time in a step at which a block lies flat, if it might rise again before the end of the step; else infinity."""
+    """Return the time in a step at which a block lies flat, if it might rise again; else infinity."""
 
 
 @contract

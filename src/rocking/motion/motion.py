@@ -84,6 +84,8 @@ def time_of_fall(motion: Trajectory, overturning: Overturning, angle: float) -> 
         return abs(float(motion.at(time)[0])) - angle
 
     before = after = overturning.time
+    if motion.lying_time < math.inf:
+        return before
     while before > 0 and beyond(before) >= 0:  # overturning may be certain only later
         before, after = max(before - STEP_BACK, 0.0), before
     if beyond(before) >= 0:

@@ -58,6 +58,8 @@ def absolute(rows: np.ndarray, cycle_length: float, duration: float) -> np.ndarr
 
 
 TURN = np.dtype([("time", "f8"), ("angle", "f8")])
+LYING = 1e-12
+"""Relative rounding error of the angle at which a block lies flat."""
 
 
 @frozen(eq=False, slots=False)
@@ -122,7 +124,8 @@ class Trajectory(ReadOnlyArrays):
         ----------
         times : float or array_like
             Time τ, from 0 to `duration`. Later times are allowed if no further event can occur. That is the case at rest,
-            and after overturning while the angle, which grows like e^τ, is within the range of floats.
+            and after overturning while the angle, which grows like e^τ, is within the range of floats. A block that overturned
+            because it lies flat, although its base could raise it, stays as it lies.
 
         Returns
         -------
@@ -211,6 +214,19 @@ class Trajectory(ReadOnlyArrays):
         return section_of(self.system, self.start, self.cycles, PHASE.checked(phase))
 
     @cached_property
+    def lying_time(self) -> float:
+        """Time τ from which a block whose base could raise it again lies flat: that of its overturning; infinite for other motions."""
+        if self.overturning is None or self._angle_lying == math.inf:
+            return math.inf
+        angle = abs(self.final.angle)
+        return self.overturning.time if abs(angle / self._angle_lying - 1.0) < LYING else math.inf
+
+    @property
+    def _angle_lying(self) -> float:
+        critical_angle = self.system.critical_angle
+        return math.inf if critical_angle is None else 0.5 * math.pi / critical_angle
+
+    @cached_property
     def _numbers(self) -> Any:
         return parameters(self.system, self._cycle_length)
 
@@ -238,6 +254,7 @@ class Trajectory(ReadOnlyArrays):
         out = np.empty((flat.size, 3))
         elapsed = np.where(flat > begins[index], np.maximum(elapsed, 0.0), 0.0)
         resample.sample(self._numbers, rows, index, elapsed, out)
+        out[flat >= self.lying_time] = math.copysign(self._angle_lying, rows["side"][-1]), 0.0, 0.0
         if not np.isfinite(out).all():
             first = float(flat[np.flatnonzero(~np.isfinite(out).all(axis=1))[0]])
             allowed = f"lie in the run, [0, {self.duration:.6g}], or little later, while the angle is within the range of floats"
