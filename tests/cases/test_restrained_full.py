@@ -25,6 +25,7 @@ from rocking.kernels.library.kernel import kernel
 from rocking.kernels.motion import finite_motion
 from rocking.kernels.restrainer import restrainer_of
 from rocking.motion.march_loop import parameters, tables_for
+from rocking.motion.motion import end_shown
 from switches import agrees, certified_near_switches, compare_beside_switches
 
 RECORD = Path(__file__).parents[3] / "shared" / "records" / "NGA_no_1063_RRS228.AT2"
@@ -314,6 +315,22 @@ def test_a_stiff_restrainer_returns_the_block_from_any_angle_short_of_a_right_on
     assert not grazing.certified
     assert rk.simulate(system, rk.State(0.9 * flat, 3.0)).outcome == "overturned"
     assert math.isnan(rk.simulate(case.system()).margin)
+
+
+def test_fall_is_shown_until_the_block_lies_flat():
+    """In the computed motion the restrainer raises it again within .01."""
+    angle = 0.2632116693400544
+    pushes = np.concatenate(
+        [np.zeros(33), np.full(4, -195.244921875 * math.tan(angle) / angle), np.zeros(50)]
+    )
+    base = rk.PiecewiseLinear(pushes, step=0.05)
+    system = rk.System(
+        base, 0.8, critical_angle=angle, stiffness_ratio=44.551694063811496, prestress_ratio=0.1
+    )
+    motion = rk.simulate(system)
+    end = end_shown(motion)
+    assert motion.overturning.time <= end < motion.overturning.time + 0.1
+    assert abs(motion.at(end)[0]) == pytest.approx(math.pi / 2 / angle, rel=1e-9)
 
 
 @pytest.mark.parametrize("kind", ["half-sine", "one-cosine", "triangular"])

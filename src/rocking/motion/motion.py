@@ -30,8 +30,8 @@ STEPS_OF_RECORD = 32
 """Samples in the unit of τ, at least, of a motion under a sampled base acceleration."""
 MAX_STEPS_OF_RECORD = 1_000_000
 """Samples at most of such a motion, if its base acceleration has fewer."""
-STEP_BACK = 0.25
-"""Step in τ by which the time of a fall is sought before the time at which it is certain."""
+STRIDE = 0.25
+"""Step in τ by which the time of a fall is sought, before and after the time at which it is certain."""
 FALLEN = 3.0
 """Value of |Θ| up to which a fall of the slender block is shown, far beyond its small angles."""
 
@@ -87,11 +87,14 @@ def time_of_fall(motion: Trajectory, overturning: Overturning, angle: float) -> 
     if motion.lying_time < math.inf:
         return before
     while before > 0 and beyond(before) >= 0:  # overturning may be certain only later
-        before, after = max(before - STEP_BACK, 0.0), before
+        before, after = max(before - STRIDE, 0.0), before
     if beyond(before) >= 0:
         return overturning.time or 1.0
     while beyond(after) < 0:
-        before, after = after, after + 0.25
+        before, after = after, after + STRIDE
+        # The base may raise a block at once that lies flat in the computed motion.
+        tops = (turn["time"] for turn in motion.turns_of_fall(after) if abs(turn["angle"]) >= angle)
+        after = next((float(time) for time in tops if time >= before), after)
     return brentq(beyond, before, after, xtol=1e-12)
 
 

@@ -107,15 +107,25 @@ class Trajectory(ReadOnlyArrays):
             np.diff(rows["cycle"]) * self._cycle_length + np.diff(rows["time"]),
             self.duration - begins[-1],
         )
+        return read_only(self._turns(rows, begins, lasts))
+
+    def turns_of_fall(self, until: float) -> np.ndarray:
+        """Return the extremes of Θ of the last arc, as `peaks` does, up to a time τ that may be after the end of the run."""
+        rows = self._rows()[-1:]
+        begins = absolute(rows, self._cycle_length, self.duration)
+        return self._turns(rows, begins, until - begins)
+
+    def _turns(self, rows: np.ndarray, begins: np.ndarray, lasts: np.ndarray) -> np.ndarray:
+        """Return the extremes on arcs that begin with event rows, at times, and last so long."""
         values = np.empty((4 * len(rows) + 16, 3))
         count = resample.turns(self._numbers, rows, lasts, values)
         if count > len(values):
             values = np.empty((count, 3))
             resample.turns(self._numbers, rows, lasts, values)
-        peaks = np.empty(count, TURN)
-        peaks["time"] = begins[values[:count, 0].astype(int)] + values[:count, 1]
-        peaks["angle"] = values[:count, 2]
-        return read_only(peaks)
+        turns = np.empty(count, TURN)
+        turns["time"] = begins[values[:count, 0].astype(int)] + values[:count, 1]
+        turns["angle"] = values[:count, 2]
+        return turns
 
     def at(self, times: Any) -> tuple[Any, Any]:
         """Return Θ and Θ' at any times, exact: Yim & Lin (1991), Eq. (5), from the preceding event.
