@@ -268,8 +268,8 @@ def test_units_of_fields_figures_tables_and_link_are_those_chosen_at_the_top(vis
     assert drawn["time"] == pytest.approx(block.seconds(before["time"]))
     labels = visitor.page.locator("#fields label:visible").all_inner_texts()
     assert [" ".join(label.split()) for label in labels if "equation" not in label] == [
-        "H height m", "B width m", "e restitution", "f frequency Hz", "a acceleration m/s²", "φ phase rad", "θ₀ initial angle °",
-        "θ̇₀ initial velocity °/s", "θb brace angle °", "r restitution", "first cycle", "cycles",
+        "H height m", "B width m", "d offset m", "e restitution", "f frequency Hz", "a acceleration m/s²", "φ phase rad",
+        "θ₀ initial angle °", "θ̇₀ initial velocity °/s", "θb brace angle °", "r restitution", "first cycle", "cycles",
     ]  # fmt: skip
     for name, value in (("width", "0.6"), ("amplitude", "0.4 g"), ("frequency_hz", "1.2")):
         visitor.page.fill(f"#{name}", value)
