@@ -17,7 +17,7 @@ from rocking.model.system import System, quantities
 from rocking.model.text import counted
 from rocking.model.validation import instance, refuse_if, within
 from rocking.model.verdict import Overturning
-from rocking.motion.trajectory import Trajectory, side_at
+from rocking.motion.trajectory import Trajectory, lying_time, side_at, turns_of_fall
 from rocking.motion.validity import Validity, compared, validity
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def time_of_fall(motion: Trajectory, overturning: Overturning, angle: float) -> 
         return abs(float(motion.at(time)[0])) - angle
 
     before = after = overturning.time
-    if motion.lying_time < math.inf:
+    if lying_time(motion) < math.inf:
         return before
     while before > 0 and beyond(before) >= 0:  # overturning may be certain only later
         before, after = max(before - STRIDE, 0.0), before
@@ -93,7 +93,7 @@ def time_of_fall(motion: Trajectory, overturning: Overturning, angle: float) -> 
     while beyond(after) < 0:
         before, after = after, after + STRIDE
         # The base may raise a block at once that lies flat in the computed motion.
-        tops = (turn["time"] for turn in motion.turns_of_fall(after) if abs(turn["angle"]) >= angle)
+        tops = (turn["time"] for turn in turns_of_fall(motion, after) if abs(turn["angle"]) >= angle)
         after = next((float(time) for time in tops if time >= before), after)
     return brentq(beyond, before, after, xtol=1e-12)
 

@@ -109,12 +109,6 @@ class Trajectory(ReadOnlyArrays):
         )
         return read_only(self._turns(rows, begins, lasts))
 
-    def turns_of_fall(self, until: float) -> np.ndarray:
-        """Return the extremes of Θ of the last arc, as `peaks` does, up to a time τ that may be after the end of the run."""
-        rows = self._rows()[-1:]
-        begins = absolute(rows, self._cycle_length, self.duration)
-        return self._turns(rows, begins, until - begins)
-
     def _turns(self, rows: np.ndarray, begins: np.ndarray, lasts: np.ndarray) -> np.ndarray:
         """Return the extremes on arcs that begin with event rows, at times, and last so long."""
         values = np.empty((4 * len(rows) + 16, 3))
@@ -224,19 +218,6 @@ class Trajectory(ReadOnlyArrays):
         return section_of(self.system, self.start, self.cycles, PHASE.checked(phase))
 
     @cached_property
-    def lying_time(self) -> float:
-        """Time τ from which a block whose base could raise it again lies flat: that of its overturning; infinite for other motions."""
-        if self.overturning is None or self._angle_lying == math.inf:
-            return math.inf
-        angle = abs(self.final.angle)
-        return self.overturning.time if abs(angle / self._angle_lying - 1.0) < LYING else math.inf
-
-    @property
-    def _angle_lying(self) -> float:
-        critical_angle = self.system.critical_angle
-        return math.inf if critical_angle is None else 0.5 * math.pi / critical_angle
-
-    @cached_property
     def _numbers(self) -> Any:
         return parameters(self.system, self._cycle_length)
 
@@ -264,7 +245,7 @@ class Trajectory(ReadOnlyArrays):
         out = np.empty((flat.size, 3))
         elapsed = np.where(flat > begins[index], np.maximum(elapsed, 0.0), 0.0)
         resample.sample(self._numbers, rows, index, elapsed, out)
-        out[flat >= self.lying_time] = math.copysign(self._angle_lying, rows["side"][-1]), 0.0, 0.0
+        out[flat >= lying_time(self)] = self.final.angle, 0.0, 0.0
         if not np.isfinite(out).all():
             first = float(flat[np.flatnonzero(~np.isfinite(out).all(axis=1))[0]])
             allowed = f"lie in the run, [0, {self.duration:.6g}], or little later, while the angle is within the range of floats"
@@ -278,3 +259,19 @@ def side_at(motion: Trajectory, event: float) -> int:
     rows = rows[rows["mode"] == kernel.FLIGHT]
     begins = absolute(rows, motion._cycle_length, motion.duration)
     return int(rows["side"][np.argmin(np.abs(begins - event))])
+
+
+def turns_of_fall(motion: Trajectory, until: float) -> np.ndarray:
+    """Return the extremes of Θ of the last arc, as `Trajectory.peaks` does, up to a time τ that may be after the end of the run."""
+    rows = motion._rows()[-1:]
+    begins = absolute(rows, motion._cycle_length, motion.duration)
+    return motion._turns(rows, begins, until - begins)
+
+
+def lying_time(motion: Trajectory) -> float:
+    """Return the time τ from which a block lies flat whose base could raise it again: that of its overturning; infinite for others."""
+    critical_angle = motion.system.critical_angle
+    if motion.overturning is None or critical_angle is None:
+        return math.inf
+    lies = abs(abs(motion.final.angle) * critical_angle / (0.5 * math.pi) - 1.0) < LYING
+    return motion.overturning.time if lies else math.inf
