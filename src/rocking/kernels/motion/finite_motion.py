@@ -396,7 +396,7 @@ def to_end_in_batch(p, angle, want_peak):
     """
     each = False
     while True:
-        # One place of call, so that LLVM puts ``to_end`` and all that it calls into one function: a fifth less time.
+        # One place of call, so that LLVM puts ``to_end`` and all that it calls into one function: a seventh less time.
         end = to_end(p, angle, 0.0, math.inf, True, want_peak, each)
         if each or not (math.isnan(end.margin) and not math.isnan(end.margin_time)):
             return end
