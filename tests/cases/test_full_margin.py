@@ -15,10 +15,12 @@ import rocking as rk
 from oracles import full_block, full_taylor
 from oracles.restitution import deviation
 from rocking.kernels.block.restitution import bend_within, restitution_at
-from rocking.kernels.contract import arc_at, growth_constant, margin_of
+from rocking.kernels.contract import arc_at, end_is_sure, growth_constant, guess_from, margin_of, next_event
+from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.library.kernel import kernel
 from rocking.kernels.motion.finite_motion import ENDING_ROW, RUN_ROW, run_batch, run_to_end
 from rocking.kernels.motion.march import OVERTURNED
+from rocking.kernels.motion.rounding_errors import DEVIATIONS, LINEAR, Covariance
 from rocking.motion.march_loop import parameters
 from rocking.motion.motion import end_shown
 from rocking.motion.trajectory import lying_time
@@ -368,6 +370,52 @@ def test_no_certified_outcome_next_to_a_switch_is_wrong(count, powers):
             exact = full_taylor.Block(base.values * base.scale, base.step, scale, e, angle).overturns()
             assert exact == fell
     assert count // 3 < sum(sure) < count
+
+
+@kernel
+def return_with_error(p, side, time, size):
+    arc = arc_at(p, side, 0, time, 0.0, 0.1)
+    coming, _ = next_event(p, FLIGHT, arc, guess_from(p, 0.0))
+    error = Covariance(size * size, 0.0, size * size)
+    return coming.event == IMPACT, end_is_sure(p, arc, coming, error, error)
+
+
+def test_return_is_certain_only_below_the_limit_of_the_error():
+    limit = LINEAR / DEVIATIONS
+    sizes = {1e-12: True, 0.99 * limit: True, 1.01 * limit: False, math.inf: False, math.nan: False}
+    compared = 0
+    for system, time, side in systems():
+        if system.left is None:
+            found = [return_with_error(parameters(system), side, time, size) for size in sizes]
+            if found[0][0]:
+                assert [sure for _, sure in found] == list(sizes.values())
+                compared += 1
+    assert compared > 6
+
+
+@pytest.mark.parametrize(("angle", "most"), [(0.05, 0.0015), (0.2, 0.01), (0.4, 0.03)])
+def test_errors_of_that_limit_grow_as_small_ones(angle, most):
+    """The part of an error that is not linear grows with the critical angle."""
+    worst = 0.0
+    for seed in range(6):
+        system = rk.System(synthetic(seed), 0.9, critical_angle=angle)
+        between = 0.7 - margin_from(parameters(system), 1, 0.0, 0.7, False)
+        for share in (1e-3, 1e-2, 0.1):
+            speed = (1.0 - share) * between
+            events = rk.simulate(system, rk.State(0.0, speed)).events
+            back = float(events["time"][events["kind"] == "impact"][0]) - 1e-6
+            state = partial(flown, system, back)
+            small = 1e-4 * share * between
+            growth = (state(speed + small) - state(speed)) / small
+            larger = LINEAR / np.abs(growth).max()
+            off = state(speed + larger) - state(speed) - larger * growth
+            worst = max(worst, np.abs(off).max() / LINEAR)
+    assert most / 10 < worst < most
+
+
+def flown(system, time, speed):
+    """Return the state of a block that leaves the base at a speed, before its impact."""
+    return np.array(rk.simulate(system, rk.State(0.0, speed)).at(time))
 
 
 @pytest.mark.parametrize(

@@ -8,9 +8,10 @@ q = W cos w - sigma a sin w, with the weight W. The covariance is carried with t
 series.
 
 An arc of a slender block ends as computed if K+ exceeds its error: no more is to be known, because the equation is linear. Of a full
-block the error at the end of the arc must be small. For a size d of the error, terms of its second order are alpha d^2 at most. So
-below the limit LINEAR the error is that of the linear equation, and all motions within it meet the base with this one. Where
-overturning is proved, the proof must hold for each of these motions. So the certificate needs no margin of the full block.
+block the error at the end of the arc must be below the limit LINEAR. For a size d of the error, x'' has terms of its second order of
+about alpha d^2/2, which grow as e^2t. They change the error by about alpha d^2/6, below LINEAR by a fiftieth of it for
+alpha = 0.4. So the error is that of the linear equation, and all motions within it meet the base with this one. Where overturning
+is proved, the proof must hold for each of these motions. So the certificate needs no margin of the full block.
 
 The speed after an impact is linear in that before it, unless the coefficient of restitution is a table over the speed. By how much a
 table differs from its tangent, within the error of the speed, is one more error. It is added as an independent one, although it depends on
@@ -39,7 +40,7 @@ from rocking.kernels.system import Full, Slender, Unsymmetric
 # A result counts as certain if it exceeds this number of standard deviations.
 DEVIATIONS = 32.0
 # Error of u or of u' up to which the equation of a full block may be taken as linear in it.
-LINEAR = 2.0**-6
+LINEAR = 0.25
 
 
 class Covariance(NamedTuple):
