@@ -9,9 +9,9 @@ series.
 
 An arc of a slender block ends as computed if K+ exceeds its error: no more is to be known, because the equation is linear. Of a full
 block the error at the end of the arc must be below the limit LINEAR. For a size d of the error, x'' has terms of its second order of
-about alpha d^2/2, which grow as e^2t. They change the error by about alpha d^2/6, below LINEAR by a fiftieth of it for
-alpha = 0.4. So the error is that of the linear equation, and all motions within it meet the base with this one. Where overturning
-is proved, the proof must hold for each of these motions. So the certificate needs no margin of the full block.
+about alpha^2 d^2. They change the error by a share of about alpha^2 d/2: at LINEAR by a fiftieth for alpha = 0.4. So the error is
+that of the linear equation, and all motions within it meet the base with this one. Where overturning is proved, the proof must
+hold for each of these motions. So the certificate needs no margin of the full block.
 
 The speed after an impact is linear in that before it, unless the coefficient of restitution is a table over the speed. By how much a
 table differs from its tangent, within the error of the speed, is one more error. It is added as an independent one, although it depends on
