@@ -74,9 +74,12 @@ class Quantity(NamedTuple):
 
     def checked(self, value: Any, argument: str = "", if_below: str = "") -> float:
         """Return a number in the range of the quantity; errors, which name the argument, as in `within`."""
+        low, high = self.range
+        if type(value) is float and low <= value <= high:
+            return value  # most often: continuation makes 60,000 systems in 20 s
         from rocking.model.validation import within
 
-        return within(argument or self.name, value, *self.range, if_below=if_below)
+        return within(argument or self.name, value, low, high, if_below=if_below)
 
     def axis(self, block: Any) -> tuple[Conversion, str]:
         """Return the conversion of values for a figure, and the label of their axis; normalised if `block` is None."""

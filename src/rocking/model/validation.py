@@ -313,6 +313,8 @@ def within(name: str, value: float, low: float, high: float, unit: str = "", if_
 
 def finite(name: str, value: float, largest: float) -> float:
     """Return `value` as a float of size up to `largest`, a bound above all sensible values; errors as in `within`."""
+    if type(value) is float and abs(value) <= largest:
+        return value
     allowed = f"be a finite real number of size up to {largest:g}"
     number = real(name, value, allowed)
     if not abs(number) <= largest:
@@ -322,6 +324,8 @@ def finite(name: str, value: float, largest: float) -> float:
 
 def number(value: object) -> Any:
     """Return the real number that a value is, or that an array of shape () holds; None, also for shape (1,)."""
+    if type(value) is float:
+        return value
     if getattr(value, "shape", None) == () and not np.ma.is_masked(value):
         value = np.asarray(value)[()]
     return value if isinstance(value, Real) and not isinstance(value, bool | np.timedelta64) else None
