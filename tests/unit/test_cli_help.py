@@ -5,13 +5,14 @@ import shlex
 
 import pytest
 
+import record_files as write
 from rocking.cli.commands import COMMANDS as TABLE
 
 COMMANDS = [command.name for command in TABLE]
 FEWER = {"orbits": " --effort 0.05", "basins": " --boundary-runs 100"}
 """Options that make the examples of a command shorter."""
 WITHOUT_EXAMPLES = {"explore", "cite"}
-SLOW = {"record", "paper", "fragility"}
+SLOW = {"record", "paper"}
 
 
 def examples(printed, command):
@@ -27,6 +28,16 @@ def made_small(example):
     # the third number of an axis; the second one of a range is its end
     example = re.sub(r"(:[^ :]+:)(\d+)\b(?= |$)", lambda axis: f"{axis[1]}{min(int(axis[2]), 9)}", example)
     return re.sub(r"--samples \d+", "--samples 50", example) + FEWER.get(example.split()[1], "")
+
+
+def write_what_they_read(folder):
+    """Write the files that the examples name: times of impacts, records of a site and its hazard."""
+    (folder / "times.txt").write_text("0.0 0.9 1.68 2.36 2.97 3.52 4.02")
+    (folder / "hazard.csv").write_text("PGA (g),annual rate\n0.1,0.01\n0.4,0.001\n1.6,0.00002\n")
+    (folder / "records").mkdir()
+    for name, push in (("near", 0.4), ("far", -0.3)):
+        samples = [0.0, push, -push, push / 2, 0.0] * 20
+        (folder / "records" / f"{name}.at2").write_text("\n".join(write.peer(samples)))
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
@@ -47,7 +58,7 @@ def test_each_example_can_be_copied_and_runs(rocking, tmp_path, command):
     found = examples(told, command)
     assert code == 0
     assert bool(found) == (command not in WITHOUT_EXAMPLES)
-    (tmp_path / "times.txt").write_text("0.0 0.9 1.68 2.36 2.97 3.52 4.02")
+    write_what_they_read(tmp_path)
     for number, example in enumerate(found):
         code, message, _ = rocking(made_small(example).removeprefix("rocking "))
         assert (code, message) == (0, ""), example
