@@ -94,6 +94,23 @@ def test_a_base_that_holds_the_acceleration_of_lift_off_is_undecided(model, offs
     assert close >= 60
 
 
+@pytest.mark.parametrize(
+    ("restitution", "braces", "duration"),
+    [(1.0, None, None), (0.8, None, 0.3), (0.8, rk.Braces(0.5), None)],
+    ids=["no loss", "in flight", "brace without loss"],
+)
+def test_a_lift_off_at_the_level_is_undecided_if_nothing_erases_it(restitution, braces, duration):
+    """The pulse is below g b/h by 3e-17 of it, so that the block rests. Rounded, it is above."""
+    block = rk.Block(3.5495968932856354, 0.6162474058275154, restitution)
+    peak = 1.7025377258442675
+    assert Fraction(peak) <= Fraction(9.80665) * Fraction(block.width) / Fraction(block.height)
+    for factor, certified in ((1.0, False), (1.0 + 1e-9, True)):
+        pulse = rk.Pulse("rectangular", amplitude=peak * factor, duration=2.0 / block.frequency_parameter)
+        motion = rk.simulate(block.system(pulse, braces=braces, model="slender"), duration=duration)
+        assert motion.outcome == "bounded"
+        assert motion.certified is certified
+
+
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_record_that_holds_the_acceleration_of_lift_off_is_undecided(sign):
     for relative in (0.0, 2.0**-53, -(2.0**-53), 2.0**-52, -(2.0**-52), 2.0**-50, 1e-6, -1e-6):
@@ -195,21 +212,26 @@ def test_each_minimum_of_an_arc_must_exceed_the_error_there():
 
 
 @kernel
-def surely_met(p, speed, variance):
-    arc = arc_at_place(p, 1, 0.0, 0.0, 2.0, SampledDrive(0, 0.0))
-    coming = Next(0.05, IMPACT, 1, 0.0, -speed, SampledDrive(0, 0.05), 0.0, 0.0)
-    return is_no_graze(p, arc, coming, Covariance(variance, 0.0, 0.0))
+def surely_met(p, slender, side, speed, of_angle, of_velocity):
+    arc = arc_at_place(slender, side, 0.0, 0.0, 2.0, SampledDrive(0, 0.0))
+    coming = Next(0.05, IMPACT, side, 0.0, -speed, SampledDrive(0, 0.05), 0.0, 0.0)
+    return is_no_graze(p, arc, coming, Covariance(of_angle**2, 0.0, of_velocity**2))
 
 
-def test_impact_that_only_touches_the_base_is_undecided():
-    """The ground pushes the block off with u'' = 2, so that it would have sunk by v^2/4."""
-    p = parameters(rk.System(rk.PiecewiseLinear([-3.0, -3.0], step=0.1), 0.9))
-    speed = 1e-3
-    far, near = (speed**2 / 4 / (32 * factor) for factor in (1.001, 0.999))
-    assert surely_met(p, speed, far**2)
-    assert not surely_met(p, speed, near**2)
-    falling = parameters(rk.System(rk.PiecewiseLinear([0.0, 0.0], step=0.1), 0.9))
-    assert surely_met(falling, speed, near**2)
+@pytest.mark.parametrize(("side", "left"), [(1, None), (-1, rk.LeftSide(4.0, 0.75, 0.9))])
+def test_impact_that_only_touches_the_base_is_undecided(side, left):
+    """The ground pushes the block off with u'' = 2, so that it would have sunk by v^2/4, both in the units of its side."""
+    slender = parameters(rk.System(rk.PiecewiseLinear([-3.0, -3.0], step=0.1), 0.9))
+    p = slender
+    if left is not None:
+        p = parameters(rk.System(rk.PiecewiseLinear([12.0, 12.0], step=0.1), 0.9, left=left))
+    speed, unit = 1e-3, 1.0 if left is None else left.angle_ratio * left.frequency_ratio
+    depth = speed**2 / 4
+    for error, sure in ((1 / 32.03, True), (1 / 31.97, False)):
+        assert surely_met(p, slender, side, speed * unit, depth * error, 0.0) is sure
+        assert surely_met(p, slender, side, speed * unit, 0.0, speed * error) is sure
+    falling = parameters(rk.System(rk.PiecewiseLinear([0.0, 0.0], step=0.1), 0.9, left=left))
+    assert surely_met(falling, slender, side, speed * unit, depth, speed)
 
 
 def test_angle_that_rounding_may_have_taken_below_the_base_is_undecided():

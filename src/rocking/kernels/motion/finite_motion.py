@@ -57,6 +57,7 @@ from rocking.kernels.motion.rounding_errors import (
     exceeds,
     of_growth,
     of_velocity,
+    turns_further,
     widened,
     with_error_of_velocity,
 )
@@ -175,14 +176,14 @@ def error_after(p, arc, time, stretch, error):
 
 @kernel
 def is_no_graze(p, arc, coming, at_event):
-    """Return whether a block that meets the base at an event would have sunk below it by more than the accumulated rounding error.
+    """Return whether a block that meets the base at an event would have sunk below it by more than the accumulated error.
 
-    That is v^2/(2 u''). If u'' < 0 at the contact, the block falls on.
+    If u'' < 0 at the contact, the block falls on.
     """
-    upward = acceleration(p, arc.side, coming.angle, coming.drive)
-    if coming.event != IMPACT or upward <= 0.0:
+    if coming.event != IMPACT:
         return True
-    return exceeds(0.5 * coming.velocity * coming.velocity / upward, at_event.uu)
+    by, upward = units_of(p, arc.side), acceleration(p, arc.side, coming.angle, coming.drive)
+    return turns_further(coming.velocity * by.per_speed, upward * (by.per_speed * by.per_rate), at_event)
 
 
 @kernel

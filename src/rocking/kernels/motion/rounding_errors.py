@@ -161,11 +161,15 @@ def spread_of(c):
     return DEVIATIONS * math.sqrt(max(c.uu, c.vv))
 
 
-@kernel
-def would_fall_on(p, arc, coming, at_event):
-    """Return whether a block that lies flat would have turned further by more than the error of u, that is by v^2/(-2 u'')."""
-    back = -acceleration(p, arc.side, coming.angle, coming.drive)
-    return back <= 0.0 or exceeds(0.5 * coming.velocity * coming.velocity / back, at_event.uu)
+@kernel(inline=True)
+def turns_further(velocity, back, error):
+    """Return whether a motion that passes an angle at a velocity turns further than this angle by more than the error.
+
+    Against an acceleration ``back`` it turns further by v^2/(2 back). The velocity must exceed its own error, too.
+    """
+    return back <= 0.0 or (
+        exceeds(velocity, error.vv) and exceeds(0.5 * velocity * velocity / back, error.uu)
+    )
 
 
 @body(contract.end_is_sure, Full)
@@ -178,4 +182,5 @@ def end_of_full_is_sure(p, arc, coming, error, at_event):
         p, arc.side, coming.angle - spread, coming.velocity - spread, coming.drive
     ):
         return True
-    return coming.angle == lying_angle(p) and would_fall_on(p, arc, coming, at_event)
+    back = -acceleration(p, arc.side, coming.angle, coming.drive)
+    return coming.angle == lying_angle(p) and turns_further(coming.velocity, back, at_event)
