@@ -215,7 +215,10 @@ def _outcome(motion: Motion) -> str:
 
 
 def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
-    """Draw the base acceleration from time `start` to `stop`, in τ, and the accelerations that lift a block off if it comes near."""
+    """Draw the base acceleration from time `start` to `stop`, in τ, and the accelerations that lift a block off if it comes near.
+
+    Under a vertical acceleration a_v of the base in units of g they are 1 + a_v times those without it.
+    """
     forcing, units = motion.system.forcing, units_of(block, motion.block)
     time = np.linspace(start, stop, SAMPLES_PER_PICTURE)  # also at a jump, where no sample is
     if isinstance(forcing, PiecewiseLinear):
@@ -225,14 +228,21 @@ def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block 
     if forcing.largest > 0.5:
         # a record begins weakly, a pulse is over at the end
         first, last = (np.abs(forcing.acceleration(part)).max() for part in np.array_split(time, 3)[::2])
-        _pair(
-            ax,
-            tuple(units.amplitude(level) for level in motion.system.lift_offs),
-            style.GUIDE,
-            "dotted",
-            "lift-off from rest",
-            at_right=last < first,
-        )
+        levels = tuple(units.amplitude(level) for level in motion.system.lift_offs)
+        if motion.system.vertical is None:
+            _pair(ax, levels, style.GUIDE, "dotted", LIFT_OFF, at_right=last < first)
+        else:
+            weight = 1.0 + motion.system.vertical.acceleration(time)
+            for level in (-levels[0], levels[1]):
+                ax.plot(
+                    units.time(time),
+                    level * weight,
+                    color=style.GUIDE,
+                    linestyle="dotted",
+                    linewidth=style.LINE,
+                    gid=LIFT_OFF,
+                )
+            _name(ax, levels[1] * float(weight.max()), LIFT_OFF, at_right=last < first)
     ax.plot(
         units.time(time),
         units.amplitude(forcing.acceleration(time)),
@@ -287,9 +297,14 @@ def _pair(
     drawn = [level for level in (-levels[0], levels[1]) if math.isfinite(level)]
     for level in drawn:
         ax.axhline(level, color=colour, linestyle=dashes, linewidth=style.LINE, gid=name)
+    _name(ax, drawn[-1], name, at_right=at_right)
+
+
+def _name(ax: Axes, level: float, name: str, *, at_right: bool) -> None:
+    """Write the name of a line above it."""
     ax.text(
         1.0 if at_right else 0.01,
-        drawn[-1],
+        level,
         name,
         transform=ax.get_yaxis_transform(),
         ha="right" if at_right else "left",
@@ -299,6 +314,7 @@ def _pair(
     )
 
 
+LIFT_OFF = "lift-off from rest"
 STRIKES = {"impact": (style.IMPACT, "o"), "brace": (style.BRACE, "s")}
 NAMES = {"impact": "impact", "brace": "brace impact"}
 # A ring before, a dot after an impact, in units of their common size: where both coincide, both are visible.
