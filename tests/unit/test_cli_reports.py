@@ -627,6 +627,17 @@ def test_vertical_component_is_not_turned(rocking, tmp_path):
     assert rocking(f"{line} --channel 3")[0] == 0
 
 
+def test_component_that_does_not_say_that_it_is_vertical_is_told(rocking, tmp_path):
+    for name, head in (("push", "NS"), ("up", "UP"), ("across", "EW")):
+        components(tmp_path / f"{name}.csv", 30, heads=(head,))
+    line = f"record {tmp_path / 'push.csv'} {BLOCK_ON_RECORD} --scale 0.1 --json --vertical"
+    sentence = "the component EW does not say that it is vertical: --vertical takes it as vertical"
+    for name, told in (("up", False), ("across", True)):
+        code, _, out = rocking(f"{line} {tmp_path / name}.csv")
+        assert code == 0
+        assert (sentence in json.loads(out)["warnings"]) is told
+
+
 def test_components_of_different_length_end_together(rocking, tmp_path):
     for name, count in (("long", 40), ("short", 30), ("same", 30)):
         components(tmp_path / f"{name}.csv", count, heads=("NS",), start=name != "long")

@@ -203,6 +203,10 @@ def with_vertical(
         raise InvalidInput(
             f"--vertical needs a file with one vertical channel, or with one channel; got {len(found)} of {len(motions)} channels"
         )
+    if found[0].component and not found[0].vertical:
+        sentences.append(
+            f"the component {found[0].component} does not say that it is vertical: --vertical takes it as vertical"
+        )
     up = found[0].scaled(ground.factor)
     check_step("vertical", ground, up)
     return same_end(ground, up, sentences)

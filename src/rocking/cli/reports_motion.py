@@ -304,14 +304,13 @@ def block_of(request: Request) -> Block:
 
 def record_figure(plot: Any, motion: Motion, request: Request) -> Any:
     """Return the overview of a motion under the name of its record."""
-    figure = plot.overview(motion, request.block)
-    figure.suptitle(heading(request.records), fontsize="small")
+    return with_name(plot.overview(motion, request.block), request.records)
+
+
+def with_name(figure: Any, ground: GroundMotion) -> Any:
+    """Return a figure with the name of its record, the component and the peak above it, in lines that fit."""
+    figure.suptitle(f"{named(ground)}, PGA {ground.pga / GRAVITY:.3g} g", fontsize="small", wrap=True)
     return figure
-
-
-def heading(ground: GroundMotion) -> str:
-    """Return the name of a record with its component and its peak, for a figure."""
-    return f"{named(ground)}, PGA {ground.pga / GRAVITY:.3g} g"
 
 
 def named(ground: GroundMotion) -> str:
@@ -547,7 +546,7 @@ def slide_more(_: Slip, request: Request) -> dict[str, Any]:
 def slide_figure(plot: Any, result: Slip, request: Request) -> Any:
     """Return the slip under the name of its record."""
     ax = plot.slip(result)
-    plot.title(ax, heading(request.records))
+    with_name(ax.figure, request.records)
     return ax
 
 

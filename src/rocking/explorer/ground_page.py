@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -37,6 +38,8 @@ from rocking.model.forcing import KINDS
 from rocking.model.validation import ContactLost, TooManyEvents
 from rocking.survey.ending_measures import BlockEndings
 
+EXAMPLE = re.compile(r"for example \w+='?([^',;]+)'?")
+"""Example of an argument in the message on a file; the page shows the field of this argument."""
 LOST = "the link shows a file, which is not part of the link: choose the file again"
 UNFINISHED = "the map is not complete: save it when it is"
 SHAKEN = ("shaking", "scale", "equation")
@@ -120,7 +123,7 @@ class GroundSession(Session):
         try:
             channels = await self.workers.read(read_file, *self.file, new)
         except (ValueError, OSError) as error:
-            await self.change(self._refuse_file, str(error))
+            await self.change(self._refuse_file, EXAMPLE.sub(r"for example \1", str(error)))
         except Exception:
             logging.getLogger(__name__).exception("a file could not be read")
             await self.change(self._refuse_file, "the file could not be read")
