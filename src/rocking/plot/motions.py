@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -228,21 +229,16 @@ def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block 
     if forcing.largest > 0.5:
         # a record begins weakly, a pulse is over at the end
         first, last = (np.abs(forcing.acceleration(part)).max() for part in np.array_split(time, 3)[::2])
-        levels = tuple(units.amplitude(level) for level in motion.system.lift_offs)
-        if motion.system.vertical is None:
-            _pair(ax, levels, style.GUIDE, "dotted", LIFT_OFF, at_right=last < first)
-        else:
-            weight = 1.0 + motion.system.vertical.acceleration(time)
-            for level in (-levels[0], levels[1]):
-                ax.plot(
-                    units.time(time),
-                    level * weight,
-                    color=style.GUIDE,
-                    linestyle="dotted",
-                    linewidth=style.LINE,
-                    gid=LIFT_OFF,
-                )
-            _name(ax, levels[1] * float(weight.max()), LIFT_OFF, at_right=last < first)
+        vertical = motion.system.vertical
+        _pair(
+            ax,
+            tuple(units.amplitude(level) for level in motion.system.lift_offs),
+            style.GUIDE,
+            "dotted",
+            "lift-off from rest",
+            at_right=last < first,
+            weight=None if vertical is None else (units.time(time), 1.0 + vertical.acceleration(time)),
+        )
     ax.plot(
         units.time(time),
         units.amplitude(forcing.acceleration(time)),
@@ -288,23 +284,31 @@ def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right:
 
 
 def _pair(
-    ax: Axes, levels: tuple[float, float], colour: str, dashes: str, name: str, *, at_right: bool
+    ax: Axes,
+    levels: tuple[float, float],
+    colour: str,
+    dashes: str,
+    name: str,
+    *,
+    at_right: bool,
+    weight: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> None:
     """Draw lines at minus the first and plus the second level, the finite ones, with a name above the last.
 
-    The name is at the left under a record, which begins weakly.
+    The name is at the left under a record, which begins weakly. With times and a weight at each, the levels are multiplied by it.
     """
     drawn = [level for level in (-levels[0], levels[1]) if math.isfinite(level)]
+    top = drawn[-1]
     for level in drawn:
-        ax.axhline(level, color=colour, linestyle=dashes, linewidth=style.LINE, gid=name)
-    _name(ax, drawn[-1], name, at_right=at_right)
-
-
-def _name(ax: Axes, level: float, name: str, *, at_right: bool) -> None:
-    """Write the name of a line above it."""
+        how: dict[str, Any] = {"color": colour, "linestyle": dashes, "linewidth": style.LINE, "gid": name}
+        if weight is None:
+            ax.axhline(level, **how)
+        else:
+            ax.plot(weight[0], level * weight[1], **how)
+            top = float((level * weight[1]).max())
     ax.text(
         1.0 if at_right else 0.01,
-        level,
+        top,
         name,
         transform=ax.get_yaxis_transform(),
         ha="right" if at_right else "left",
@@ -314,7 +318,6 @@ def _name(ax: Axes, level: float, name: str, *, at_right: bool) -> None:
     )
 
 
-LIFT_OFF = "lift-off from rest"
 STRIKES = {"impact": (style.IMPACT, "o"), "brace": (style.BRACE, "s")}
 NAMES = {"impact": "impact", "brace": "brace impact"}
 # A ring before, a dot after an impact, in units of their common size: where both coincide, both are visible.
