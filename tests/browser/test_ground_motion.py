@@ -62,7 +62,7 @@ def test_page_opens_without_complaint_and_asks_no_other_host(ground, width, heig
     assert visitor.text("sentence").endswith("The base accelerates 5 times as much as in the record.")
     assert visitor.text("ground-name") == "5 × San Francisco, 1295 Shafter, F 360°"
     title = visitor.page.evaluate("models.base.title.text")
-    assert title == "Acceleration of the base: 5 × San Francisco, 1295 Shafter, F 360°"
+    assert title == "5 × San Francisco, 1295 Shafter, F 360°"
     visitor.see(f"ground-{width}-{scheme}")
     visitor.is_content()
 

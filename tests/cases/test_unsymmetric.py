@@ -13,6 +13,7 @@ from rocking.kernels import batch
 from rocking.kernels import system as numbers
 from rocking.kernels.classify import verdict
 from rocking.kernels.motion import finite_motion, march, observers, tangent
+from rocking.motion.march_loop import parameters
 
 GRAVITY = 9.80665
 RECORD = Path(__file__).parents[3] / "shared" / "records" / "NGA_no_1063_RRS228.AT2"
@@ -442,3 +443,11 @@ def test_states_after_a_pulse_start_at_its_end_although_rounding_puts_the_event_
     pulse = rk.Pulse("one-sine", amplitude=2.0748876302120816, duration=0.9609045650820724)
     motion = rk.simulate(rk.System(pulse, 0.86, left=rk.LeftSide(1.37, 0.993, 0.89)))
     assert np.abs(motion.peaks["angle"]).max() == pytest.approx(motion.peak, rel=1e-12)
+
+
+def test_tables_of_the_left_side_are_made_once_for_all_runs_under_a_record():
+    """To make them takes half as long as a run."""
+    ground, block = rk.example_ground_motion(), rk.Block(2.0, 0.5, offset=0.02)
+    first, second = (parameters(block.system(ground.scaled(pga=pga), model="slender")) for pga in (3.0, 4.0))
+    assert first.left.forcing.tables is second.left.forcing.tables
+    assert first.left.forcing.tables.step == first.forcing.tables.step * block.left.frequency_ratio

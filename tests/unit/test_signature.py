@@ -64,6 +64,27 @@ def test_array_that_cannot_be_written_has_its_own_address():
     assert words[3] == table.ctypes.data
 
 
+class Lasting(NamedTuple):
+    LASTING = True
+    table: Floats1
+    size: float
+
+
+def lasting_function(old: Lasting, new: Lasting) -> float:
+    """Only the annotations matter."""
+
+
+def test_words_of_values_that_never_change_are_those_of_each_value():
+    """Words are kept by identity: a value that is gone must not give its words to one that comes into its place."""
+    signature = Signature(lasting_function)
+    first = Lasting(np.zeros(3), 0.5)
+    for size in range(50):
+        new = Lasting(np.zeros(size), float(size))
+        words = struct.unpack_from("=qqdqqd", signature.pack((first, new)))
+        assert words == (first.table.ctypes.data, 3, 0.5, new.table.ctypes.data, size, size)
+        del new
+
+
 @pytest.mark.parametrize(
     "wrong",
     [

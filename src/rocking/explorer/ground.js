@@ -28,7 +28,7 @@ function show(view) {
   find("link-text").textContent = location.href;
   find("link-note").hidden = view.fields.source !== "file";
   find("ground-name").textContent = view.ground.title;
-  models.base.title.setv({ text: `Acceleration of the base: ${view.ground.title}` }, { sync: false });
+  models.base.title.setv({ text: view.ground.title }, { sync: false });
   find("ground-facts").replaceChildren(...rows(view.ground.facts));
   find("ground-note").textContent = view.ground.note;
   find("left-out").textContent = view.left_out;

@@ -53,7 +53,10 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
         assert isinstance(block, numbers.FullBlock)
         vertical = system.vertical.scale * system.vertical.values
         return numbers.biaxial_system(block, tables_for(forcing), forcing.scale, vertical, length)
-    free = numbers.sampled_system(block, tables_for(forcing), forcing.scale, length)
+    left_tables = None
+    if isinstance(block, numbers.UnsymmetricBlock):
+        left_tables = tables_for(forcing, block.left.rate)
+    free = numbers.sampled_system(block, tables_for(forcing), forcing.scale, length, left_tables)
     if not system.is_restrained:
         return free
     own = _restrainer_of(system)

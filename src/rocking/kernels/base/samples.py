@@ -46,6 +46,7 @@ class Passage(NamedTuple):
 class Tables(NamedTuple):
     """Samples at unit scale, with all that depends on them and on the step alone."""
 
+    LASTING = True  # nothing in it ever changes
     step: float
     sinh: float  # of the step
     versinh: float  # cosh - 1
