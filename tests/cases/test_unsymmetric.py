@@ -446,7 +446,7 @@ def test_states_after_a_pulse_start_at_its_end_although_rounding_puts_the_event_
 
 
 def test_tables_of_the_left_side_are_made_once_for_all_runs_under_a_record():
-    """To make them takes half as long as a run."""
+    """Making them takes half as long as a run."""
     ground, block = rk.example_ground_motion(), rk.Block(2.0, 0.5, offset=0.02)
     first, second = (parameters(block.system(ground.scaled(pga=pga), model="slender")) for pga in (3.0, 4.0))
     assert first.left.forcing.tables is second.left.forcing.tables

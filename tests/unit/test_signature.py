@@ -1,12 +1,18 @@
 """Arguments and results of entry points as rows of words: round trips, and refusals of arrays of the wrong kind."""
 
+import copy
+import math
+import pickle
 import struct
 from typing import Annotated, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import pytest
 
+from rocking.kernels.base.samples import tables_of
 from rocking.kernels.library.signature import Bytes1, Floats1, Floats2, Signature, chosen_of, place_of_union
+from rocking.kernels.motion import finite_motion
+from rocking.kernels.system import sampled_system, slender_block
 
 ROW = np.dtype([("time", float), ("side", float)])
 Rows = Annotated[np.ndarray, ROW, 1]
@@ -64,25 +70,38 @@ def test_array_that_cannot_be_written_has_its_own_address():
     assert words[3] == table.ctypes.data
 
 
-class Lasting(NamedTuple):
-    LASTING = True
+class LastingFields(NamedTuple):
     table: Floats1
     size: float
+
+
+class Lasting(LastingFields):
+    words = None
 
 
 def lasting_function(old: Lasting, new: Lasting) -> float:
     """Only the annotations matter."""
 
 
-def test_words_of_values_that_never_change_are_those_of_each_value():
-    """Words are kept by identity: a value that is gone must not give its words to one that comes into its place."""
+def test_values_that_never_change_keep_their_words():
     signature = Signature(lasting_function)
-    first = Lasting(np.zeros(3), 0.5)
-    for size in range(50):
-        new = Lasting(np.zeros(size), float(size))
-        words = struct.unpack_from("=qqdqqd", signature.pack((first, new)))
-        assert words == (first.table.ctypes.data, 3, 0.5, new.table.ctypes.data, size, size)
-        del new
+    values = Lasting(np.zeros(3), 0.5), Lasting(np.zeros(4), 1.5)
+    expected = (
+        *(word for value in values for word in (value.table.ctypes.data, *value.table.shape, value.size)),
+    )
+    blocks = [signature.pack(values) for _ in range(2)]
+    assert [struct.unpack_from("=qqdqqd", block) for block in blocks] == [expected, expected]
+    assert values[0].words == expected[:3]
+
+
+def test_tables_of_a_record_keep_their_words_and_a_copy_does_not():
+    """The arrays of a copy have other addresses."""
+    tables = tables_of(np.ones(4), 0.1)
+    finite_motion.run_to_end(sampled_system(slender_block(0.9), tables, 1.0, 6.4), 0.0, 0.0, math.inf)
+    assert tables.words[-1] == tables.variation.size
+    for copied in (copy.deepcopy(tables), pickle.loads(pickle.dumps(tables))):
+        assert copied.words is None
+        np.testing.assert_array_equal(copied.knots, tables.knots)
 
 
 @pytest.mark.parametrize(

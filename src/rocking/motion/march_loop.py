@@ -27,8 +27,8 @@ SMALL = 1e-8
 
 Up to |Θ| = 2 its sine and tangent are linear, and its cosine is 1, to 2e-16. So the equation is that of the slender block to rounding.
 """
-MAX_TABLES = 8
-"""Number of tables that are kept: those of the same samples and step, for all scales and restitutions."""
+MAX_TABLES = 16
+"""Number of tables that are kept, one for the samples of a record at a step; a block with unequal sides has two."""
 _tables: OrderedDict[tuple[int, float], tuple[np.ndarray, numbers.Tables]] = OrderedDict()
 _lock = Lock()
 

@@ -43,10 +43,9 @@ class Passage(NamedTuple):
     bend: float  # q/(1 - q), q = t^2/8
 
 
-class Tables(NamedTuple):
-    """Samples at unit scale, with all that depends on them and on the step alone."""
+class TableFields(NamedTuple):
+    """Fields of ``Tables``."""
 
-    LASTING = True  # nothing in it ever changes
     step: float
     sinh: float  # of the step
     versinh: float  # cosh - 1
@@ -66,6 +65,15 @@ class Tables(NamedTuple):
     knots: Knots
     blocks: Floats1  # largest |a| in each block of samples
     variation: Floats1  # (n,): sum of the changes |a_k - a_(k-1)| up to each sample
+
+
+class Tables(TableFields):
+    """Samples at unit scale, with all that depends on them and on the step alone. They never change, so they keep their words."""
+
+    words = None  # those of ``library.signature``, once an entry point has asked for them
+
+    def __getstate__(self) -> None:
+        """Leave the words out of a copy, which has other addresses."""
 
 
 @kernel

@@ -17,8 +17,6 @@ import numpy as np
 
 CODES = {float: "d", int: "q", bool: "q"}
 NO_BYTES = ctypes.c_char * 0
-MOST_KEPT = 2
-"""Number of values of a lasting type that an entry point keeps, with their words: both sides of a block have one."""
 
 Floats1 = Annotated[np.ndarray, np.dtype(np.float64), 1]
 Floats2 = Annotated[np.ndarray, np.dtype(np.float64), 2]
@@ -170,21 +168,16 @@ def lister_of(kind: Any) -> Callable[[Any], Any]:
     def words_of_fields(value: Any) -> Any:
         return chain.from_iterable([part(field) for part, field in zip(parts, value, strict=True)])
 
-    return lasting(words_of_fields) if getattr(kind.kind, "LASTING", False) else words_of_fields
+    return lasting(words_of_fields) if hasattr(kind.kind, "words") else words_of_fields
 
 
 def lasting(words: Callable[[Any], Any]) -> Callable[[Any], tuple[Any, ...]]:
-    """Return the function of words for values that never change. It keeps the words of the last ones: an address costs a microsecond."""
-    kept: dict[int, tuple[Any, tuple[Any, ...]]] = {}
+    """Return the function of words for values that never change and keep theirs in ``words``: each address costs a microsecond."""
 
     def words_of_lasting(value: Any) -> tuple[Any, ...]:
-        found = kept.get(id(value))
-        if found is None:
-            if len(kept) >= MOST_KEPT:
-                kept.clear()
-            # With the value, so that no other one gets its identity.
-            found = kept[id(value)] = value, tuple(words(value))
-        return found[1]
+        if value.words is None:
+            value.words = tuple(words(value))
+        return value.words  # type: ignore[no-any-return]
 
     return words_of_lasting
 
