@@ -14,7 +14,7 @@ from docs.extensions import checked
 from rocking.assessment.assess import block_digest
 from rocking.assessment.drawing import block_to_scale, scale_of
 from rocking.assessment.page import page, write_page
-from rocking.assessment.sentences import answers_of
+from rocking.assessment.sentences import NO_DIRECTION, answers_of, rate_notes
 from rocking.assessment.shown import block_table, record_table, rule_table
 from rocking.assessment.tables import TABLES, tables, write_csv, write_xlsx
 from rocking.cli.assessment_file import read_case
@@ -246,6 +246,10 @@ def test_page_shows_what_was_computed(assessed):
         [100 * share, 100 * low, 100 * high], abs=0.05
     )
     assert f"probability in 50 years {assessed.rate.probability(50)}" in text
+    notes = list(rate_notes(assessed.rate))
+    assert notes
+    assert all(text.count(note) == 1 for note in notes)
+    assert text.count(NO_DIRECTION) == 2
 
 
 def test_rules_are_counted_and_shown_for_few_records(assessed, monkeypatch):

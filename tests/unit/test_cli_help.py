@@ -50,6 +50,12 @@ def test_help_fits_the_terminal_and_breaks_no_name(rocking, monkeypatch, command
         assert not set(printed) & {"\u2011", "\u00a0", "\b"}
 
 
+def test_block_overturns_in_the_example_that_says_so(rocking):
+    printed = rocking("record --help")[2]
+    line = printed[printed.index("the block overturns.") :].splitlines()[1]
+    assert "overturned: certain" in rocking(line.strip(" \\").removeprefix("rocking "))[2]
+
+
 @pytest.mark.parametrize(
     "command", [pytest.param(each, marks=pytest.mark.long) if each in SLOW else each for each in COMMANDS]
 )

@@ -6,6 +6,7 @@ import math
 import re
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import attrs
 import numpy as np
@@ -14,7 +15,7 @@ import xarray as xr
 
 import record_files as write
 import rocking as rk
-from rocking.cli.reports_motion import margin_text, record_outcome, undecided
+from rocking.cli.reports_motion import margin_text, record_figure, record_outcome, undecided
 from rocking.cli.reports_records import few_records
 from rocking.model.quantity import IN_SI
 from rocking.records.read import FILE as EXAMPLE_FILE
@@ -674,3 +675,12 @@ def test_record_tells_which_direction_is_the_worse_one(rocking):
         json.loads(rocking(f"{line} --polarity worse --json")[2])["ground_motion"]["worse_direction"] == worse
     )
     assert "worse direction" not in rocking(line)[2]
+
+
+def test_figure_of_a_block_that_slides_says_that_it_is_no_verdict():
+    block, ground = rk.Block(2.0, 0.5), rk.example_ground_motion().scaled(pga=6.0)
+    motion = rk.simulate(block.system(ground))
+    for friction, slides in ((0.2, True), (0.6, False), (None, False)):
+        request = SimpleNamespace(block=block, records=ground, options={"friction": friction})
+        title = record_figure(rk.plot, motion, request).get_suptitle()
+        assert ("no rocking verdict with a friction of 0.2" in title) == slides

@@ -175,6 +175,14 @@ def test_block_against_a_wall_has_one_line_of_the_base_acceleration_that_lifts_i
     figure.draw_without_rendering()  # matplotlib warns of a text at infinity
     lines = [line for line in figure.axes[1].lines if line.get_gid() == "lift-off from rest"]
     assert [line.get_ydata()[0] for line in lines] == pytest.approx([-9.80665 * 0.25])
+    (name,) = (text for text in figure.axes[1].texts if text.get_text() == "lift-off from rest")
+    assert (name.get_position()[1], name.get_va()) == (lines[0].get_ydata()[0], "top")
+
+
+def test_block_against_a_wall_has_a_critical_angle_on_one_side():
+    system = rk.System(rk.Pulse("half-sine", amplitude=-2.0, duration=2.0), 0.5, left=rk.Wall(0.5))
+    ax = rk.plot.time_history(rk.simulate(system))
+    assert [line.get_ydata()[0] for line in ax.lines if line.get_gid() == "critical angle"] == [1.0]
 
 
 @pytest.mark.parametrize(("wall", "signs"), [(None, (-1, 1)), (rk.Wall(0.5), (-1,))])

@@ -315,6 +315,23 @@ def test_unit_and_step_of_several_files_are_those_of_the_files_that_state_none(f
         np.testing.assert_array_equal(one.acceleration, other.acceleration)
 
 
+def test_step_for_all_files_is_not_that_of_files_with_times(folder):
+    """In a folder, in a list and in a table; a cell of the table is for its file alone, and contradicts its times."""
+    for name, step in (("t.csv", 0.02), ("u.csv", 0.01)):
+        saved(
+            folder / name,
+            ["time (s),acc (cm/s2)", *(f"{k * step:.2f},{value}" for k, value in enumerate(WAVE))],
+        )
+    saved(folder / "v.txt", ["(cm/s2)", *map(str, WAVE)])
+    names = "t.csv", "u.csv", "v.txt"
+    saved(folder / "set.csv", ["file", *names])
+    for source in ([folder / name for name in names], folder / "set.csv"):
+        assert [each.step for each in rk.read_record_set(source, step=0.01)] == [0.02, 0.01, 0.01]
+    saved(folder / "set.csv", ["file,step", "t.csv,0.01"])
+    with pytest.raises(rk.RecordError, match="line 2: t.csv: the times give a step of 0.02 s; omit step"):
+        rk.read_record_set(folder / "set.csv")
+
+
 TABLES = {
     "missing file": (
         ["file", "x.AT2"],

@@ -436,6 +436,37 @@ def test_unit_and_step_are_never_guessed(make, arguments, expected):
     assert refusal_of(make(["1", "2"]), **arguments) == expected
 
 
+@pytest.mark.parametrize(
+    "header, step",
+    [
+        (["# acceleration in g, dt = 0.01 s"], 0.01),
+        (["acceleration (g)", "DT=0.01 s, NPTS=2"], 0.01),
+        (["acceleration (g), time step: 1D-2 sec"], 0.01),
+        (["acceleration (g)", "sampling interval 0.005"], 0.005),
+        (["sampling rate: 100 Hz", "acceleration (g)"], 0.01),
+        (["acceleration (g), dt = 10 ms"], None),
+        (["acceleration (g), dt = 0.01 s", "time step 0.02 s"], None),
+        (["acceleration (g), dt = 0"], None),
+    ],
+)
+def test_step_above_a_column_of_samples_is_taken_if_it_is_the_only_one(make, header, step):
+    path = make([*header, "0.1", "-0.2"])
+    if step is None:
+        assert refusal_of(path).startswith("file.x: the file does not state its time step")
+    else:
+        assert rk.read_ground_motion(path).step == step
+
+
+def test_times_that_do_not_increase_are_not_asked_for_a_step_alone(make):
+    """With a step they are refused, too."""
+    path = make(["time (s),acc (g)", *(f"{0.01 * k:.3g},0.1" for k in range(1_010))])
+    way_out = "correct the times, or remove their column and give the step"
+    assert way_out in refusal_of(path)
+    assert way_out in refusal_of(path, step=0.01)
+    column = make(["acc (g)", *["0.1"] * 1_010])
+    assert rk.read_ground_motion(column, step=0.01).step == 0.01
+
+
 @pytest.mark.parametrize("old", [False, True])
 @pytest.mark.parametrize("third", [[], ["ACCELERATION TIME SERIES"]])
 def test_peer_file_without_its_line_of_the_unit_takes_the_argument(make, third, old):

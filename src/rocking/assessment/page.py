@@ -12,7 +12,7 @@ from pathlib import Path
 
 from rocking.assessment.assess import Assessment
 from rocking.assessment.drawing import block_to_scale, svg_of
-from rocking.assessment.sentences import answers_of, methods, of_the_block, rate_notes
+from rocking.assessment.sentences import answers_of, methods, of_the_block
 from rocking.assessment.shown import (
     LONG,
     Shown,
@@ -120,22 +120,23 @@ def table(shown: Shown) -> str:
     def row(tag: str, cells: Sequence[str]) -> str:
         return f"<tr>{''.join(cell(tag, place, text) for place, text in enumerate(cells))}</tr>"
 
-    caption = f"<caption>{escape(shown.caption)}</caption>" if shown.caption else ""
+    caption = f'<p class="caption">{escape(shown.caption)}</p>\n' if shown.caption else ""
     rows = "\n".join(row("td", cells) for cells in shown.rows)
     head = f"<thead>{row('th', shown.heads)}</thead>" if shown.heads else ""
     kind = "table" if len(shown.rows) > LONG else "table short"
-    return f'<div class="{kind}"><table>{caption}{head}\n<tbody>\n{rows}\n</tbody></table></div>'
+    body = f"<table>{head}\n<tbody>\n{rows}\n</tbody></table>"
+    return f'<div class="{kind}">{caption}<div class="scroll">{body}</div></div>'
 
 
 def breakable(text: str) -> str:
-    """Return a text as HTML that may be broken after the marks that join the parts of a long name.
+    """Return a text as HTML that may be broken after the marks that join the parts of a long name, and not within an interval.
 
     Examples
     --------
-    >>> breakable("RSN1_A-B.csv"), breakable("up & down")
-    ('RSN1_<wbr>A-<wbr>B.csv', 'up &amp; down')
+    >>> breakable("RSN1_A-B.csv"), breakable("up & down"), breakable("0.5–0.7")
+    ('RSN1_<wbr>A-<wbr>B.csv', 'up &amp; down', '0.5–&NoBreak;0.7')
     """
-    return re.sub(r"([-_/])(?=\w)", r"\1<wbr>", escape(text))
+    return re.sub(r"–(?=\d)", "–&NoBreak;", re.sub(r"([-_/])(?=\w)", r"\1<wbr>", escape(text)))
 
 
 def figure(svg: str, caption: str, width: float | None = None) -> str:
@@ -184,7 +185,7 @@ def of_block(each: Assessment, name: str) -> list[str]:
         '<div class="beside">',
         figure(
             svg_of(lambda: plot.overturning_set(each.overturning_set)),
-            f"Levels of {symbol_of(each)} at which each record overturns the block; between them it stands.",
+            f"Levels of {symbol_of(each)} at which each record overturns the block; at all other levels that were computed it stands.",
         ),
         table(band_table(each)),
         "</div>",
@@ -197,7 +198,6 @@ def of_block(each: Assessment, name: str) -> list[str]:
         parts += [
             "<h3>Annual rate</h3>",
             table(rate_table(each, each.rate)),
-            *map(paragraph, rate_notes(each.rate)),
         ]
     parts.append("<h3>Rules for comparison</h3>")
     return (

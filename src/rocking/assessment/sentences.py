@@ -24,6 +24,7 @@ AGAINST_A_WALL = (
     "wall is neglected."
 )
 SPREADS = ("height", "width", "restitution")
+NO_DIRECTION = "The block is symmetric, so that the direction of the records has no effect."
 DIRECTIONS = {
     "+": "The records act in the direction in which they were recorded, and not in the opposite one.",
     "-": "The records act in the direction opposite to that in which they were recorded.",
@@ -45,7 +46,7 @@ def answers_of(each: Assessment) -> Iterator[str]:
     )
     yield (
         f"{each.overturned} of {counted(count, 'record')} {at} overturn{'s' * (each.overturned == 1)} the block "
-        f"({others} by the {other} model){doubt}. {DIRECTIONS[data.attrs['polarity']]}"
+        f"({others} by the {other} model){doubt}. {direction_sentence(each)}"
     )
     level = data.attrs["level"]
     if level is not None:
@@ -58,7 +59,7 @@ def answers_of(each: Assessment) -> Iterator[str]:
         years = each.dataset.attrs["years"]
         yield (
             f"At the site: annual rate of overturning {rate_text(each.rate)}; probability in {years:g} years "
-            f"{each.rate.probability(years)}."
+            f"{' '.join((f'{each.rate.probability(years)}.', *rate_notes(each.rate)))}"
         )
     yield friction_sentence(each)
     doubtful = int((~data.certified).sum())
@@ -68,6 +69,11 @@ def answers_of(each: Assessment) -> Iterator[str]:
         f"Undecided in double precision: {doubtful} of {counted(count, 'record')} {at}, and {undecided:,} of "
         f"{counted(runs.peak.size, 'run')} of the fragility."
     )
+
+
+def direction_sentence(each: Assessment) -> str:
+    """Return the sentence on the direction of the records."""
+    return DIRECTIONS[each.dataset.attrs["polarity"]] if each.block.left is not None else NO_DIRECTION
 
 
 def fit_sentence(fit: LognormalFit, unit: str) -> str:
@@ -125,7 +131,7 @@ def rate_notes(rate: OverturningRate) -> Iterator[str]:
     ):
         share = float(rate.dataset[name])
         if share > NOTABLE:
-            yield f"{percent(share)} of the rate come from {where}."
+            yield f"{percent(share)} of the rate is from {where}."
 
 
 def methods(each: Assessment) -> Iterator[str]:
@@ -158,5 +164,5 @@ def of_the_block(each: Assessment, name: str) -> str:
     wall = f" {AGAINST_A_WALL}" * (each.block.wall is not None)
     return (
         f"{name}: SHA-256 of sizes, inertia and restitution {attributes['block_sha256']}.{wall} "
-        f"{DIRECTIONS[attributes['polarity']]}"
+        f"{direction_sentence(each)}"
     )

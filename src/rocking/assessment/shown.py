@@ -173,7 +173,7 @@ def record_table(each: Assessment) -> Shown:
         *columns,
         "PGA (g)",
         "PGV (cm/s)",
-        f"Sa({data.attrs['sa_period_s']:g} s) (g)",
+        f"Sa({data.attrs['sa_period_s']:g}\N{NO-BREAK SPACE}s) (g)",
         f"{'full' if full else 'slender'} model",
         f"{'slender' if full else 'full'} model",
         "top (mm)",
@@ -264,13 +264,25 @@ def fitted(fit: LognormalFit, name: str) -> str:
     return "not determined" if fit.problem else f"{number(value)} ({number(low)}–{number(high)})"
 
 
+def span(low: float, high: float) -> str:
+    """Return both ends of an interval, with as many digits as tell them apart.
+
+    Examples
+    --------
+    >>> span(0.75, 1.0), span(0.899975, 0.900012)
+    ('0.75–1', '0.89998–0.90001')
+    """
+    digits = next((count for count in range(4, 17) if f"{low:.{count}g}" != f"{high:.{count}g}"), 17)
+    return f"{low:.{digits}g}–{high:.{digits}g}"
+
+
 def band_table(each: Assessment) -> Shown:
     """Return the intervals of overturning levels of each record."""
     bands = each.overturning_set
     rows = []
     for place, name in enumerate(each.records.names):
         found = bands.intervals(place)
-        shown = ", ".join(f"{low:.4g}–{high:.4g}" for low, high in found[:MAX_BANDS].tolist())
+        shown = ", ".join(span(low, high) for low, high in found[:MAX_BANDS].tolist())
         rows.append(
             (
                 name,

@@ -43,8 +43,9 @@ UNCERTAIN = ("samples", "height_spread", "width_spread", "restitution_spread")
 TOP = ("title", "by", "limits", "limits_deg", "sa_period_s", "polarity", "model", "seed")
 SECTIONS = ("block", "records", "levels", "uncertain", "hazard")
 OF_HAZARD = ("file", "levels", "rates_per_year", "years")
-ADVICE = re.compile(r"(?:--)?\b(baseline|component)='(\w+)'")
-"""Argument in a message of the reader, which is a key of [records]."""
+ADVICE = re.compile(r"(?:--)?\b(baseline|component|units)='([^']+)'")
+STEP = re.compile(r"(?:--)?\bstep=([\d.e-]+)|(?<=omit )step\b|(?<=do not give )step\b")
+"""Arguments in a message of the reader, which are keys of [records]."""
 NO_RESTRAINER = "an assessment needs the base reactions of a free block"
 EXAMPLE = 'pga_g = "0.1:1.2:23"'
 
@@ -163,7 +164,7 @@ def read_case(path: Path) -> Case:
             raise InvalidInput(f"{path.name}: {'; '.join(errors.sentences)}")
         records = records_of(path, source, reading)
     told = [*(str(each.message) for each in caught), *drift_warnings(records)]
-    sentences = list(dict.fromkeys(ADVICE.sub(r'\1 = "\2" in [records]', each) for each in told))
+    sentences = list(dict.fromkeys(map(with_keys, told)))
     inputs = [path, *([source] if isinstance(source, Path) else source)]
     if isinstance(others.get("hazard"), Path):
         inputs.append(others["hazard"])
@@ -171,6 +172,18 @@ def read_case(path: Path) -> Case:
         path, texts["title"] or f"Rocking assessment: {path.stem}", texts["by"], blocks, records, inputs,
         intensity, levels, level, limits["limits"], limits["limits_deg"], others, names, sentences,
     )  # fmt: skip
+
+
+def with_keys(message: str) -> str:
+    """Return a message of the reader with the keys of [records] instead of arguments.
+
+    Examples
+    --------
+    >>> with_keys("give it, for example step=0.01"), with_keys("omit step"), with_keys("take one, for example component='first'")
+    ('give it, for example step_s = 0.01 in [records]', 'omit step_s', 'take one, for example component = "first" in [records]')
+    """
+    keyed = ADVICE.sub(r'\1 = "\2" in [records]', message)
+    return STEP.sub(lambda found: f"step_s = {found[1]} in [records]" if found[1] else "step_s", keyed)
 
 
 def names_of(key: str, intensity: str) -> dict[str, str]:
@@ -474,4 +487,4 @@ def records_of(path: Path, source: Path | list[Path], reading: dict[str, Any]) -
         return read_record_set(source, **reading)
     except (TypeError, ValueError, OSError) as error:
         told = error.of(names) if isinstance(error, Refusal) else error
-        raise InvalidInput(f"{path.name}: records: {told}") from error
+        raise InvalidInput(f"{path.name}: records: {with_keys(str(told))}") from error

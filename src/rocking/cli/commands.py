@@ -223,8 +223,8 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
         examples="""
 # The record that comes with the package.
 rocking record example --height 2 --width 0.5 --plot record.png
-# The same, scaled to 1.3 g: the block overturns.
-rocking record example --height 2 --width 0.5 --pga-g 1.3 \\
+# The same, scaled to 1.5 g: the block overturns.
+rocking record example --height 2 --width 0.5 --pga-g 1.5 \\
     --animate fall.gif --csv fall.csv
 """,
     ),

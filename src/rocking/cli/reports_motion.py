@@ -303,13 +303,16 @@ def block_of(request: Request) -> Block:
 
 
 def record_figure(plot: Any, motion: Motion, request: Request) -> Any:
-    """Return the overview of a motion under the name of its record."""
-    return with_name(plot.overview(motion, request.block), request.records)
+    """Return the overview of a motion under the name of its record, and the sentence that it is no verdict if the block slides."""
+    block = block_of(request)
+    slides = refusal(motion, block, request.options.get("friction"))
+    return with_name(plot.overview(motion, block), request.records, slides)
 
 
-def with_name(figure: Any, ground: GroundMotion) -> Any:
-    """Return a figure with the name of its record, the component and the peak above it, in lines that fit."""
-    figure.suptitle(f"{named(ground)}, PGA {ground.pga / GRAVITY:.3g} g", fontsize="small", wrap=True)
+def with_name(figure: Any, ground: GroundMotion, *sentences: str) -> Any:
+    """Return a figure with the name of its record, the component and the peak above it, and sentences, in lines that fit."""
+    title = "\n".join(filter(None, (f"{named(ground)}, PGA {ground.pga / GRAVITY:.3g} g", *sentences)))
+    figure.suptitle(title, fontsize="small", wrap=True)
     return figure
 
 

@@ -242,7 +242,7 @@ class Block(Dimensions):
                 raise Refusal(
                     "restitution", "give a coefficient in [0, 1]", Text(housner), "reduce the factor"
                 )
-            remedy = "are {height} and {width} swapped? If not, give {restitution}"
+            remedy = "are {height} and {width} swapped, or not in metres? If not, give {restitution}"
             raise Refusal("restitution", "lie in [0, 1]", Text(housner), remedy)
         if self.restrainer is not None:
             self._check_restrained(self.restrainer)
@@ -889,7 +889,7 @@ def symmetric_block(block: Any, name: str = "block") -> Block:
 
 def unrestrained(block: Block, name: str, reason: str) -> Block:
     """Return a block, after checking that it has no restrainer; ValueError with the reason if it has one."""
-    refuse_if(block.restrainer is not None, name, "have no restrainer", block, reason)
+    refuse_if(block.restrainer is not None, name, "have no restrainer", Text("one"), reason)
     return block
 
 

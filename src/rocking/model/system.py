@@ -331,8 +331,9 @@ class System:
         if self.is_restrained:
             self._check_restrainer()
         if self.block is not None:
-            restrained = self.block.restrainer is not None
-            refuse_if(restrained and self.braces is not None, "braces", RESTRAINED, Text(str(self.braces)))
+            if self.braces is not None:
+                given = Text(f"braces at {self.braces.angle:g} θcr")
+                refuse_if(self.block.restrainer is not None, "braces", RESTRAINED, given)
             object.__setattr__(self, "block", self._fitting(self.block))
         if self.critical_angle is None:
             allowed = "be omitted for a slender block"

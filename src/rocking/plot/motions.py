@@ -273,14 +273,18 @@ def _guides(ax: Axes, system: System, units: Units, largest: float, *, at_right:
     """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it; none on the side of a wall."""
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
-        left = 1.0 if system.left is None else 0.0 if system.wall else system.left.angle_ratio
+        left = 1.0 if system.left is None else math.inf if system.wall else system.left.angle_ratio
         restrained = system.block is not None and system.block.by_balance
         name = "unstable balance" if restrained else "critical angle"
         levels, colour, dashes = (left, 1.0), style.GUIDE, "dotted"
     else:
         levels, colour, dashes, name = (system.braces.angle,) * 2, style.BRACE, "dashed", "braces"
-    if largest > 0.5 * min(filter(None, levels)):
+    if largest > 0.5 * min(levels):
         _pair(ax, tuple(map(units.angle, levels)), colour, dashes, name, at_right=at_right)
+
+
+ROOM = 0.12
+"""Room beyond the outermost line, for its name, as a share of the range."""
 
 
 def _pair(
@@ -293,26 +297,28 @@ def _pair(
     at_right: bool,
     weight: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> None:
-    """Draw lines at minus the first and plus the second level, the finite ones, with a name above the last.
+    """Draw lines at minus the first and plus the second level, the finite ones, with a name beyond the last.
 
     The name is at the left under a record, which begins weakly. With times and a weight at each, the levels are multiplied by it.
     """
     drawn = [level for level in (-levels[0], levels[1]) if math.isfinite(level)]
-    top = drawn[-1]
+    ax.margins(y=ROOM)
+    above = drawn[-1] > 0.0
+    end = drawn[-1]
     for level in drawn:
         how: dict[str, Any] = {"color": colour, "linestyle": dashes, "linewidth": style.LINE, "gid": name}
         if weight is None:
             ax.axhline(level, **how)
         else:
             ax.plot(weight[0], level * weight[1], **how)
-            top = float((level * weight[1]).max())
+            end = float((level * weight[1]).max() if above else (level * weight[1]).min())
     ax.text(
         1.0 if at_right else 0.01,
-        top,
+        end,
         name,
         transform=ax.get_yaxis_transform(),
         ha="right" if at_right else "left",
-        va="bottom",
+        va="bottom" if above else "top",
         fontsize=style.SMALL,
         color=style.INK,
     )

@@ -40,6 +40,13 @@ DIRECTION = re.compile(
 )
 """Word that names the direction of a component."""
 OTHER_QUANTITY = re.compile(r"(?:vel|disp)", re.IGNORECASE)
+STEP = re.compile(
+    r"\b(?:dt|delta[ _-]?t|(?:time[ _-]?)?step|(?:time|sampling)[ _-]?interval)\s*[=:]?\s*"
+    rf"({NUMBER.pattern})\s*(?:s|sec|seconds?)?\s*(?:[,;)]|$)",
+    re.IGNORECASE | re.MULTILINE,
+)
+RATE = re.compile(rf"\bsampl(?:ing|e) (?:rate|frequency)\s*[=:]?\s*({NUMBER.pattern})\s*hz\b", re.IGNORECASE)
+"""Time step in s, and samples per second, in the lines above a column of samples."""
 HEADER_LINES = 100
 MOST_COLUMNS = 4
 """Time and three components; lines of more numbers in general hold samples one after another."""
@@ -95,14 +102,27 @@ def read(file: TextFile) -> list[Channel]:
         header = [line for line in file.lines[:first] if len(cells(line)) != width]
     units = header_units(header)
     times = None if width == 1 else printed_times(file, places, [row[0] for row in rows])
+    step = _step(header) if width == 1 else None
     result = []
     for place, (name, unit) in enumerate(titled, width - len(titled)):
         samples = file.numbers(places, [row[place] for row in rows], "a sample")
         stated = units._replace(named=frozenset([unit])) if unit else units
         result.append(
-            Channel(samples, stated.only(), None, "text", component=name, header=stated, times=times)
+            Channel(samples, stated.only(), step, "text", component=name, header=stated, times=times)
         )
     return result
+
+
+def _number(text: str) -> float:
+    return float(re.sub("[Dd]", "E", text))
+
+
+def _step(header: list[str]) -> float | None:
+    """Return the time step that the lines above a column of samples state; None unless they state one."""
+    text = "\n".join(header)
+    found = {_number(step) for step in STEP.findall(text)}
+    found |= {1.0 / rate for rate in map(_number, RATE.findall(text)) if rate > 0.0}
+    return found.pop() if len(found) == 1 and min(found) > 0.0 else None
 
 
 def _rows(file: TextFile, first: int, width: int) -> tuple[list[int], list[list[str]]]:

@@ -58,7 +58,8 @@ def read_ground_motion(
 
     - PEER AT2, COSMOS V1 and V2, CSMIP/CDMG V1 and V2, USC V2, SMC;
     - K-NET and KiK-net ASCII, ESM ASCII, GeoNet V1A and V2A;
-    - text with one column (acceleration), two (time, acceleration), or more under a line of titles such as time,NS,EW,UD;
+    - text with one column (acceleration), two (time, acceleration), or more under a line of titles such as time,NS,EW,UD; above one
+      column a line may state the step, such as dt = 0.01 s;
     - text with the number of samples and the time step before the samples, in lines of any length;
     - miniSEED, SAC and Kinemetrics files, if ObsPy is installed.
 

@@ -7,9 +7,9 @@ import math
 import os
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from attrs import evolve
@@ -235,6 +235,9 @@ def read_record_set(
     return _set(_of_files(paths, values), component, "source")
 
 
+Motions = TypeVar("Motions")
+
+
 class _Member(NamedTuple):
     """Motion of a set, named."""
 
@@ -278,7 +281,10 @@ def _of_files(paths: Sequence[Path], values: dict[str, Any], remedy: str = "") -
     result = []
     for path in paths:
         try:
-            motions = _of_file(path, values) if len(paths) > 1 else read_ground_motions(path, **values)
+            if len(paths) > 1:
+                motions = _of_file(read_ground_motions, path, values, {})
+            else:
+                motions = read_ground_motions(path, **values)
         except RecordError as error:
             several = ONE_FOR_EACH.format(error.argument) if error.argument and len(paths) > 1 else ""
             raise RecordError(f"{error}{several}{remedy}") from error
@@ -286,14 +292,16 @@ def _of_files(paths: Sequence[Path], values: dict[str, Any], remedy: str = "") -
     return result
 
 
-def _of_file(path: Path, values: dict[str, Any]) -> tuple[GroundMotion, ...]:
-    """Return the motions of one of several files; it keeps the unit and the step that it states itself."""
+def _of_file(
+    read: Callable[..., Motions], path: Path, values: dict[str, Any], own: dict[str, Any]
+) -> Motions:
+    """Read one of several files with values for all, and with its own ones; of the first, it keeps those that it states itself."""
     try:
-        return read_ground_motions(path, **values)
+        return read(path, **values | own)
     except RecordError as error:
-        if values.get(error.argument) is None:
+        if error.argument in own or values.get(error.argument) is None:
             raise
-        return _of_file(path, values | {error.argument: None})
+        return _of_file(read, path, values | {error.argument: None}, own)
 
 
 def _members(
@@ -320,14 +328,14 @@ def _of_table(path: Path, values: dict[str, Any], component: str) -> RecordSet:
     names = Counter(row.path.name for row in table)
     result: list[_Member] = []
     for row in table:
-        own = values | {
-            name: value for name, value in (("units", row.units), ("step", row.step)) if value is not None
-        }
+        cells = (("units", row.units), ("step", row.step), ("channel", row.channel))
+        own: dict[str, Any] = {name: value for name, value in cells if value is not None}
         try:
+            motions: Sequence[GroundMotion]
             if row.channel is None:
-                motions: Sequence[GroundMotion] = read_ground_motions(row.path, **own)
+                motions = _of_file(read_ground_motions, row.path, values, own)
             else:
-                motions = (read_ground_motion(row.path, row.channel, **own),)
+                motions = (_of_file(read_ground_motion, row.path, values, own),)
             motions = [motion if row.scale is None else motion.scaled(row.scale) for motion in motions]
         except ValueError as error:
             raise RecordError(f"{row.place}: {error}") from error

@@ -11,6 +11,7 @@ from attrs import frozen
 from rocking.model.validation import RecordError
 from rocking.records.text_file import MAX_SAMPLES, TextFile
 
+ONE_COLUMN = "correct the times, or remove their column and give the step"
 MAX_DIGITS = 17
 DRIFT = 1e-2
 """Allowed deviation of a time, in steps, in addition to its rounding."""
@@ -59,11 +60,12 @@ class PrintedTimes:
         if self.low <= given <= self.high or given == self.step:
             return samples, given, "", ""
         if self.step is not None:
-            raise RecordError(
-                f"{place}: the times give a step of {self.step:g} s; omit step, or correct the times"
-            )
+            rule = "omit step, or correct the times"
+            raise RecordError(f"{place}: the times give a step of {self.step:g} s; {rule}", "step")
         if not (np.diff(self.values) > 0).all():
-            raise RecordError(f"{place}: the times must increase from line to line to be resampled")
+            raise RecordError(
+                f"{place}: the times must increase from line to line to be resampled; {ONE_COLUMN}"
+            )
         count = int((self.values[-1] - self.values[0]) / given * (1 + 1e-12)) + 1
         if count > MAX_SAMPLES:
             raise RecordError(f"{place}: the step {given:g} s gives more than {MAX_SAMPLES:,} samples")
@@ -127,7 +129,10 @@ def _uneven(
         at = int(np.argmax(np.abs(times - expected) > tolerance))
         message = f"{texts[at]} s where {expected[at]:.6g} s is expected, at a step of {most:.6g} s"
     example = most if most > 0 else float(times[-1] - times[0]) / (len(times) - 1)
-    way_out = f"to resample them along straight lines, or if they are rounded, give a step, for example step={example:.3g}"
+    if steps.min() > 0:
+        way_out = f"to resample them along straight lines, or if they are rounded, give a step, for example step={example:.3g}"
+    else:
+        way_out = f"they do not increase from line to line: {ONE_COLUMN}, for example step={example:.3g}"
     return str(file.error(places[at], f"the times are not equidistant: {message}; {way_out}"))
 
 
