@@ -315,6 +315,17 @@ def test_unit_and_step_of_several_files_are_those_of_the_files_that_state_none(f
         np.testing.assert_array_equal(one.acceleration, other.acceleration)
 
 
+def test_all_files_that_cannot_be_read_are_told_at_once(folder):
+    saved(folder / "c.txt", map(str, WAVE))
+    saved(folder / "d.txt", ["letter", "of words"])
+    with pytest.raises(rk.RecordError) as caught:
+        rk.read_record_set(folder)
+    told = str(caught.value)
+    assert told.startswith("2 of 4 files cannot be read: (1) c.txt: the file does not state the unit")
+    assert " (2) d.txt: neither a record nor a table" in told
+    assert "\n" not in told
+
+
 def test_step_for_all_files_is_not_that_of_files_with_times(folder):
     """In a folder, in a list and in a table; a cell of the table is for its file alone, and contradicts its times."""
     for name, step in (("t.csv", 0.02), ("u.csv", 0.01)):

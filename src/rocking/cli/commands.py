@@ -673,6 +673,7 @@ rocking overturning-spectrum --pulse ricker --height 2 --width 0.5 \\
                 "Limit of |Θ|, in units of θcr; may be repeated. Overturning always follows.",
                 multiple=True,
             ),
+            INERTIA_RATIO,
             number("samples", "Number of samples of an uncertain block per record. Default: 1."),
             number("height_spread", "Standard deviation of ln H. Default: 0."),
             number("width_spread", "Standard deviation of ln B. Default: 0."),

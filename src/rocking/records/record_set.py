@@ -144,6 +144,8 @@ def _number(place: str, head: str, cell: str) -> float:
 ALLOWED = "be a folder, a table with a column 'file', or paths of record files"
 ONE_FOR_EACH = " for all files that do not state it; a table with a column {!r} gives it for each file"
 """Remedy for several files of which one lacks an argument."""
+MOST_TOLD = 20
+"""Number of files that cannot be read, up to which each is told."""
 LEFT_OUT = ("readme", "license", "licence")
 """Beginnings of names of files that accompany records: they state their source and terms."""
 OTHER_QUANTITIES = (".vt2", ".dt2", "_searchresults.csv")
@@ -276,20 +278,36 @@ def _folder_remedy(path: Path) -> str:
 
 
 def _of_files(paths: Sequence[Path], values: dict[str, Any], remedy: str = "") -> list[_Member]:
-    """Return the motions of files, each named by its file; by its path if several files have that name."""
+    """Return the motions of files, each named by its file; by its path if several files have that name.
+
+    `RecordError` on all files that cannot be read.
+    """
     names = Counter(path.name for path in paths)
-    result = []
+    several = len(paths) > 1
+    result, refused = [], []
     for path in paths:
         try:
-            if len(paths) > 1:
+            if several:
                 motions = _of_file(read_ground_motions, path, values, {})
             else:
                 motions = read_ground_motions(path, **values)
         except RecordError as error:
-            several = ONE_FOR_EACH.format(error.argument) if error.argument and len(paths) > 1 else ""
-            raise RecordError(f"{error}{several}{remedy}") from error
-        result += _members(motions, path.name if names[path.name] == 1 else path.as_posix())
+            for_each = ONE_FOR_EACH.format(error.argument) if error.argument and several else ""
+            refused.append(f"{error}{for_each}")
+        else:
+            result += _members(motions, path.name if names[path.name] == 1 else path.as_posix())
+    if refused:
+        raise RecordError(f"{_together(refused, len(paths))}{remedy}")
     return result
+
+
+def _together(refused: Sequence[str], count: int) -> str:
+    """Return the sentences on the files that cannot be read, of a number of files, as one."""
+    if len(refused) == 1:
+        return refused[0]
+    numbered = " ".join(f"({number}) {sentence}" for number, sentence in enumerate(refused[:MOST_TOLD], 1))
+    more = f" and {len(refused) - MOST_TOLD} more" if len(refused) > MOST_TOLD else ""
+    return f"{len(refused)} of {count} files cannot be read: {numbered}{more}"
 
 
 def _of_file(
