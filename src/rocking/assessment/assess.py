@@ -156,7 +156,7 @@ class Assessment(Result):
             return ""
         return (
             f"With this friction, {friction:g}, the block slides and does not rock, because tan θcr = {least:.3g} is not less: there is "
-            "no verdict, and all that follows is for a block that does not slide; see docs/sliding.md."
+            "no verdict, and all that follows is for a block that does not slide."
         )
 
     def __str__(self) -> str:

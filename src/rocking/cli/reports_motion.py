@@ -306,7 +306,8 @@ def record_figure(plot: Any, motion: Motion, request: Request) -> Any:
     """Return the overview of a motion under the name of its record, and the sentence that it is no verdict if the block slides."""
     block = block_of(request)
     slides = refusal(motion, block, request.options.get("friction"))
-    return with_name(plot.overview(motion, block), request.records, slides)
+    vertical = "with vertical motion" * (motion.system.vertical is not None)
+    return with_name(plot.overview(motion, block), request.records, vertical, slides)
 
 
 def with_name(figure: Any, ground: GroundMotion, *sentences: str) -> Any:

@@ -40,6 +40,7 @@ ANGLES = LinearSegmentedColormap.from_list("angles", palette.ANGLES)
 
 # In the heading of a figure of blocks that are not slender; a line of its own, clear of the note at the right.
 FULL_EQUATION = "full equation"
+AT_A_WALL, RESTRAINED = "at a wall", "restrained"
 # Lines outside the range in which they are valid.
 DOTTED = (0, (1, 1.5))
 
@@ -138,11 +139,12 @@ def title(ax: Axes, text: str) -> None:
 
 
 def block_title(ax: Axes, block: Block | None, *, full: bool = False) -> None:
-    """Write the size of the block above the axes at the left, for a figure in SI units, and whether its equation is full."""
+    """Write the size of the block above the axes at the left, for a figure in SI units, what holds it, and whether its equation is full."""
     if block is not None:
         instance("block", block, Block)
         size, _, offset = block.size.partition(", ")
-        second = ", ".join(filter(None, (offset, FULL_EQUATION * full)))
+        held = AT_A_WALL * (block.wall is not None), RESTRAINED * (block.restrainer is not None)
+        second = ", ".join(filter(None, (offset, *held, FULL_EQUATION * full)))
         title(ax, "\n".join(filter(None, (f"block {size}", second))))
 
 
