@@ -116,6 +116,11 @@ find("map").addEventListener("pointermove", event => {
   read();
 });
 
+find("map").addEventListener("pointerleave", () => {
+  pointed = undefined;
+  find("readout").textContent = hint;
+});
+
 // Tell what the map shown has at this place, again with each map.
 function read() {
   if (!pointed || !shown) return;
@@ -268,6 +273,11 @@ function keep(saved) {
 
 // ---- dark and light
 
+// Return a palette of one colour, in each of its opacities, in another colour.
+function shades(palette, colour) {
+  return palette.map(shade => colour + shade.slice(7));
+}
+
 function theme(name) {
   document.documentElement.dataset.theme = name;
   for (const model of Object.values(models)) {
@@ -281,6 +291,7 @@ function theme(name) {
     if (name === "words") glyph.setv({ text_color: colour("--soft") }, { sync: false });
     if (name === "line") glyph.setv({ line_color: colour("--motion") }, { sync: false });
     if (name === "dots") glyph.setv({ fill_color: colour("--motion") }, { sync: false });
+    if (name === "dense") glyph.color_mapper.setv({ palette: shades(glyph.color_mapper.palette, colour("--motion").value.trim()) }, { sync: false });
   }
   frame();
 }

@@ -153,7 +153,7 @@ def section() -> Any:
     """Return the Poincaré section, once per forcing cycle: single points, or an image of their density."""
     made = framed("section", "Poincaré section", ticks=FEW)
     shades = [f"{style.MOTION}{round(255 * share):02X}" for share in (0.0, *np.linspace(0.35, 1.0, 8))]
-    image(made, "dense", shades)
+    image(made, "dense", shades).name = "dense"
     points = empty("points", "angle", "velocity")
     dots = {"size": 4.0, "color": style.MOTION, "line_color": None}
     made.scatter("angle", "velocity", source=points, name="dots", **dots)

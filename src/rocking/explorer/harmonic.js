@@ -28,7 +28,7 @@ function show(view) {
   find("model").value = view.fields.critical_angle ? "full" : "slender";
   const on = new Set(view.fields.curves.split(","));
   for (const box of all("#curves input")) box.checked = on.has(box.name);
-  find("curves").disabled = Boolean(view.fields.brace_angle || view.fields.critical_angle);
+  find("curves").disabled = Boolean(view.fields.brace_angle || view.fields.critical_angle || Number(view.fields.offset));
   remember(view, before);
   page.maps.forEach(steady);
   find("depth").textContent = view.planes.map.deepest ? "Zoom limit of double precision" : "";
