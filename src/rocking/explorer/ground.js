@@ -28,17 +28,17 @@ function show(view) {
   find("link-text").textContent = location.href;
   find("link-note").hidden = view.fields.source !== "file";
   find("ground-name").textContent = view.ground.title;
-  models.base.title.setv({ text: wrapped(`Acceleration of the base: ${view.ground.title}`, find("base")) }, { sync: false });
+  models.base.title.setv({ text: shortened(`Acceleration of the base: ${view.ground.title}`, find("base")) }, { sync: false });
   find("ground-facts").replaceChildren(...rows(view.ground.facts));
   find("ground-note").textContent = view.ground.note;
   find("left-out").textContent = view.left_out;
   outdate(view);
 }
 
-// Break the title of a figure into lines that fit: a bold letter of 12 px is less than 8 px wide.
-function wrapped(title, figure) {
+// Shorten the title of a figure to what fits: a bold letter of 12 px is less than 8 px wide. Its name is below in full.
+function shortened(title, figure) {
   const most = Math.max(20, Math.floor(figure.clientWidth / 8));
-  return title.replace(new RegExp(`(.{1,${most}})(?:\\s+|$)`, "g"), "$1\n").trimEnd();
+  return title.length > most ? `${title.slice(0, most - 1).trimEnd()}…` : title;
 }
 
 // Fields of the pulse and of the file are visible only for these sources.
