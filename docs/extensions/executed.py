@@ -117,7 +117,10 @@ def output(printed):
     if any(TABLE.search(line) for line in lines):
         # Rows of a table must not wrap on a narrow page, so long sentences among them are wrapped here.
         lines, classes = (
-            [textwrap.fill(line, LONG_LINE) if len(line) > LONG_LINE else line for line in lines],
+            [
+                line if TABLE.search(line) or len(line) <= LONG_LINE else textwrap.fill(line, LONG_LINE)
+                for line in lines
+            ],
             [],
         )
     else:

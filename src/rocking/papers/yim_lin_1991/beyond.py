@@ -77,7 +77,7 @@ def crisis() -> Figure:
     Poincaré sections (ψ = 0) of two simulated runs over 2·10⁴ cycles: (a) A = 4.86, (b) A = 4.88. The first 100 cycles
     are omitted. If a run becomes periodic, its later points are orange, and the title gives the period and the cycle. A run
     that does not is either chaos for ever or a transient that lasts longer. The end of a chaotic transient depends on rounding:
-    another run of the same system, such as the run of `classify`, may become periodic in another cycle.
+    another run of the same system, such as that of a verdict, may become periodic in another cycle.
     """
     figure, axes = rk.plot.panels(columns=2, height=3.2)
     for ax, amplitude in zip(axes, (4.86, 4.88), strict=True):

@@ -144,7 +144,7 @@ def line_half_sine() -> Finding:
 
 @MAKRIS_ROUSSOS.claim(
     "Eqs. (41)–(45)",
-    qualified="close for slow pulses. Near Ω = 2 the line lies above the exact threshold, so that it is unconservative there",
+    qualified="close for slow pulses. The line lies above the exact threshold, so that it is unconservative, most near Ω = 2",
     cost=0.1,
 )
 def line_one_sine() -> Finding:
