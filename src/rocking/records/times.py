@@ -105,7 +105,8 @@ def printed_times(file: TextFile, places: list[int], texts: list[str]) -> Printe
             return PrintedTimes(times, shortest, low, high, doubt=doubt)
     else:
         low, high = np.inf, -np.inf
-    return PrintedTimes(times, None, low, high, _uneven(file, places, texts, times, fine))
+    fault = _uneven(file, places, texts, times, fine, rounded=low <= high)
+    return PrintedTimes(times, None, low, high, fault)
 
 
 def _shortest(step: float, allowed: float) -> float:
@@ -115,9 +116,18 @@ def _shortest(step: float, allowed: float) -> float:
 
 
 def _uneven(
-    file: TextFile, places: list[int], texts: list[str], times: np.ndarray, tolerance: np.ndarray
+    file: TextFile,
+    places: list[int],
+    texts: list[str],
+    times: np.ndarray,
+    tolerance: np.ndarray,
+    *,
+    rounded: bool,
 ) -> str:
-    """Return the sentence on times that are not equidistant, with the first that differs from most and the way out."""
+    """Return the sentence on times that are not equidistant, with the first that differs from most and the way out.
+
+    A step suffices if the times are `rounded` ones of equidistant times, or if they increase.
+    """
     steps = np.diff(times)
     most = float(np.median(steps))
     uneven = np.abs(steps - most) > 2 * tolerance[1:]
@@ -129,7 +139,7 @@ def _uneven(
         at = int(np.argmax(np.abs(times - expected) > tolerance))
         message = f"{texts[at]} s where {expected[at]:.6g} s is expected, at a step of {most:.6g} s"
     example = most if most > 0 else float(times[-1] - times[0]) / (len(times) - 1)
-    if steps.min() > 0:
+    if rounded or steps.min() > 0:
         way_out = f"to resample them along straight lines, or if they are rounded, give a step, for example step={example:.3g}"
     else:
         way_out = f"they do not increase from line to line: {ONE_COLUMN}, for example step={example:.3g}"
