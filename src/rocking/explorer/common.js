@@ -116,11 +116,6 @@ find("map").addEventListener("pointermove", event => {
   read();
 });
 
-find("map").addEventListener("pointerleave", () => {
-  pointed = undefined;
-  find("readout").textContent = hint;
-});
-
 // Tell what the map shown has at this place, again with each map.
 function read() {
   if (!pointed || !shown) return;
