@@ -392,3 +392,13 @@ def test_record_stands_below_the_time_history_beside_the_phase_portrait():
 @pytest.mark.parametrize("record", ["all", "none"])
 def test_notebook_shows_a_motion_under_a_record(record):
     assert "data:image/png;base64," in rk.simulate(SHAKEN, record=record)._repr_html_()
+
+
+def test_what_holds_a_block_stands_in_the_line_without_a_note():
+    """The second line has the note at the right beside it."""
+    block = rk.Block(2.0, 0.5, offset=0.05, wall=rk.Wall(0.5))
+    figure = rk.plot.overview(rk.simulate(block.system(rk.example_ground_motion())), block)
+    assert figure.axes[0].get_title(loc="left").split("\n") == [
+        "(a) block 2 m × 0.5 m, at a wall",
+        "offset 0.05 m, full equation",
+    ]

@@ -57,10 +57,11 @@ def answers_of(each: Assessment) -> Iterator[str]:
     yield fit_sentence(each.fragility.fits[-1], unit_of(each))
     if each.rate is not None:
         years = each.dataset.attrs["years"]
-        yield (
+        rate = (
             f"At the site: annual rate of overturning {rate_text(each.rate)}; probability in {years:g} years "
-            f"{' '.join((f'{each.rate.probability(years)}.', *rate_notes(each.rate)))}"
+            f"{each.rate.probability(years)}."
         )
+        yield " ".join((rate, *rate_notes(each.rate)))
     yield friction_sentence(each)
     doubtful = int((~data.certified).sum())
     runs = each.fragility.dataset

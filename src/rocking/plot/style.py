@@ -144,8 +144,11 @@ def block_title(ax: Axes, block: Block | None, *, full: bool = False) -> None:
         instance("block", block, Block)
         size, _, offset = block.size.partition(", ")
         held = AT_A_WALL * (block.wall is not None), RESTRAINED * (block.restrainer is not None)
-        second = ", ".join(filter(None, (offset, *held, FULL_EQUATION * full)))
-        title(ax, "\n".join(filter(None, (f"block {size}", second))))
+        first = ", ".join(
+            filter(None, (f"block {size}", *held))
+        )  # the note at the right is beside the second line
+        second = ", ".join(filter(None, (offset, FULL_EQUATION * full)))
+        title(ax, "\n".join(filter(None, (first, second))))
 
 
 def note(ax: Axes, text: str) -> None:
