@@ -14,7 +14,12 @@ from docutils.statemachine import StringList
 
 
 def markdown(text):
-    """Escape a help text, and set the names of options and values as code."""
+    """Escape a help text, and set the names of options and values as code; what stands between backticks is code as it is."""
+    return "".join(part if part.startswith("`") else plain(part) for part in re.split(r"(`[^`]+`)", text))
+
+
+def plain(text):
+    """Escape a text without code, and set the names of options and values as code."""
     escaped = re.sub(r"([*_<\[\\`|])", r"\\\1", text)
     return re.sub(r"(?<![\w-])(--?[a-z][\w-]*|[A-Z]+(?::[A-Z]+)+)", r"`\1`", escaped)
 

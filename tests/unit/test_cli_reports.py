@@ -661,6 +661,13 @@ def test_components_of_different_length_end_together(rocking, tmp_path):
     )
 
 
+def test_record_of_zeros_has_no_peak_to_scale(rocking, tmp_path):
+    zeros = tmp_path / "zeros.txt"
+    zeros.write_text("0\n" * 50)
+    code, told, _ = rocking(f"record {zeros} --step 0.01 --units g {SIZE} --pga-g 0.5")
+    assert (code, told) == (2, "--pga-g must be omitted for a record whose samples are all 0; got 0.5")
+
+
 def test_record_tells_which_direction_is_the_worse_one(rocking):
     line = "record example --height 2 --width 0.6 --offset 0.08 --pga-g 0.5"
     peaks = {each: json.loads(rocking(f"{line} --polarity={each} --json")[2])["peak_rad"] for each in "+-"}

@@ -291,6 +291,11 @@ def test_moving_block_is_drawn_in_metres():
         ({"frequency_hz": "1e5"}, "frequency_hz", "frequency must be a number in [0.000425137, 425.137]; got '1e5'"),
         ({"amplitude": "1e5"}, "amplitude", "acceleration must be a number in [0, 2402.42]; got '1e5'"),
         ({"amplitude": "x g"}, "amplitude", "acceleration must be a number in [0, 2402.42]; got 'x g'"),
+        (
+            {"width": "600 mm"},
+            "width",
+            "width must be a number in [0.001, 1000]; got '600 mm' (write the number alone, in the unit beside the field)",
+        ),
         ({"width": "x"}, "width", "width must be a number in [0.001, 1000]; got 'x'"),
         ({"width": "9"}, "width", f"{SQUAT} (make the block narrower or taller)"),
         ({"angle": "9", "brace_angle": "5"}, "angle",

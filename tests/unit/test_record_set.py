@@ -1,6 +1,7 @@
 """Sets of ground motions: names, columns and digest; folders, lists and tables of record files, and their errors."""
 
 import re
+import warnings
 from itertools import starmap
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import rocking as rk
 pytestmark = [
     pytest.mark.filterwarnings("ignore:.*several horizontal components of 1 station"),
     pytest.mark.filterwarnings("ignore:.*a PGA of .* is unusual"),
+    pytest.mark.filterwarnings("ignore:.*each copy counts"),
 ]
 G = 9.80665
 WAVE = np.round(np.sin(np.arange(40)) * np.exp(-np.arange(40) / 9), 3)
@@ -47,6 +49,16 @@ def test_set_is_a_sequence_of_its_motions_with_their_names():
     assert records.names == ("a, 90°", "record 2", "a, 0°")
     assert rk.RecordSet(first).names == ("a, 90°",)
     assert repr(records) == "RecordSet(3 records)"
+
+
+def test_copies_of_a_record_are_told(tmp_path):
+    for name, samples in {"a": WAVE, "b": -WAVE, "c": WAVE[1:], "d": WAVE}.items():
+        saved(tmp_path / f"{name}.AT2", write.peer(samples))
+    copies = r"^b.AT2, 180 holds the samples of a.AT2, 180, perhaps scaled or reversed, and 1 other record likewise: each copy counts"
+    with pytest.warns(rk.InputWarning, match=copies.replace("^", f"^{re.escape(tmp_path.name)}: ")):
+        rk.read_record_set(tmp_path)
+    with warnings.catch_warnings(action="error", category=rk.InputWarning):
+        rk.read_record_set([tmp_path / "a.AT2", tmp_path / "c.AT2"], component="first")
 
 
 def test_columns_hold_a_number_per_record_and_stay_as_they_are():
@@ -239,7 +251,7 @@ def test_velocities_and_displacements_beside_records_are_left_out_with_a_warning
         message = f"{folder}: {count} file{'s' * (count > 1)} without acceleration left out: {named}"
         with pytest.warns(rk.InputWarning, match=f"^{re.escape(message)}$") as caught:
             assert rk.read_record_set(folder).digest == digest
-        assert [each.filename for each in caught] == [__file__] * 2
+        assert [each.filename for each in caught] == [__file__] * 3
 
 
 def test_velocities_alone_are_no_records_and_refused_if_named(tmp_path):
@@ -463,7 +475,7 @@ DEPENDENT += "; take one of each, for example component='first'"
 @pytest.fixture
 def three(tmp_path):
     """A file of two horizontal channels, of different length, and a vertical one, and a vertical one alone."""
-    lines = "\n".join(write.csmip_v1([WAVE, WAVE[:30], -WAVE])).replace("270 Deg", "Up").split("\n")
+    lines = "\n".join(write.csmip_v1([WAVE, WAVE[:30], WAVE[::-1]])).replace("270 Deg", "Up").split("\n")
     saved(tmp_path / "a.V1", lines)
     saved(tmp_path / "b.asc", "\n".join(write.esm(100 * WAVE)).replace("HNE", "HNZ").split("\n"))
     return tmp_path
@@ -514,8 +526,10 @@ def test_set_without_a_horizontal_channel_is_refused(three):
 def test_components_of_one_station_in_two_files_are_told(tmp_path):
     first = write.peer(WAVE)
     saved(tmp_path / "a.AT2", first)
-    saved(tmp_path / "b.AT2", [line.replace(", 180", ", 270") for line in first])
-    saved(tmp_path / "c.AT2", [line.replace("Valley-02", "Valley-03") for line in first])
+    saved(tmp_path / "b.AT2", [line.replace(", 180", ", 270") for line in write.peer(WAVE[::-1])])
+    saved(
+        tmp_path / "c.AT2", [line.replace("Valley-02", "Valley-03") for line in write.peer(np.roll(WAVE, 2))]
+    )
     assert warnings_of(tmp_path)[1] == [
         f"{tmp_path.name}: several horizontal components of 1 station (a.AT2, 180; b.AT2, 270): {DEPENDENT}"
     ]

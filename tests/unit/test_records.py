@@ -43,6 +43,16 @@ FILES = {
         ["180"],
         False,
     ),
+    "PEER, a sentence in place of the station": (
+        ["", "Records of a harbour, in units of g", *write.peer(WAVE)[2:]],
+        "PEER AT2",
+        G,
+        0.01,
+        [WAVE],
+        "Records of a harbour, in units of g",
+        [""],
+        False,
+    ),
     "SMC": (write.smc(100 * WAVE), "SMC", 0.01, 0.005, [100 * WAVE], "Town, 12 Street, F", ["360°"], True),
     "CSMIP V1": (
         write.csmip_v1([WAVE, OTHER]),

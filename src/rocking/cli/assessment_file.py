@@ -280,7 +280,7 @@ def block_of(table: Mapping[str, Any], errors: Errors, where: str) -> Block | No
             with errors.collected():
                 number = NUMBER.entry(f"{key}{where}", table[key])
                 values[base] = number / UNITS[key.removeprefix(f"{base}_")]
-                typed[base] = f"{key}{where}" + ("" if key.endswith("_m") else ", in metres,")
+                typed[base] = f"{key}{where}"
                 shown[base] = f"{table[key]:.15g} {key.removeprefix(f'{base}_')}"
     for key in PLAIN:
         if key in table:

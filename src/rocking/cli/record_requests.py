@@ -170,6 +170,7 @@ def ground_motion(options: Options) -> tuple[GroundMotion, list[str]]:
             ground = turned(ground, other, math.radians(turn))
         if "pga_g" in options:
             pga = within("pga_g", options["pga_g"], MIN_PGA, MAX_PGA, "g", if_below=OMIT)
+            refuse_if(ground.pga == 0, "pga_g", "be omitted for a record whose samples are all 0", pga)
             ground = ground.scaled(pga=GRAVITY * pga)
         elif "scale" in options:
             refuse_if(options["scale"] == 0, "scale", "not be 0", 0, OMIT)

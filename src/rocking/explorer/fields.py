@@ -18,6 +18,7 @@ VERSION = 1
 """Version of links; increased when an earlier link would show a different view."""
 MAX_LENGTH = 40
 """Maximum number of characters of a number."""
+ALONE = "write the number alone, in the unit beside the field"
 MAX_ADDRESS = 2000
 """Maximum number of characters of a link."""
 
@@ -76,7 +77,8 @@ def number(low: float, high: float) -> Reader:
             value = float(text) if len(text) <= MAX_LENGTH else math.nan
         except ValueError:
             value = math.nan
-        refuse_if(not low <= value <= high, name, allowed, text)
+        remedy = ALONE if text.strip()[0].isdigit() and text.strip()[-1].isalpha() else ""
+        refuse_if(not low <= value <= high, name, allowed, text, remedy)
         return value + 0.0  # no negative zero
 
     return read

@@ -14,6 +14,7 @@ from rocking.records.text_file import (
     TextFile,
     in_plain_numbers,
     mixes_commas,
+    with_exponent_e,
 )
 from rocking.records.times import printed_times
 from rocking.records.units import (
@@ -113,15 +114,12 @@ def read(file: TextFile) -> list[Channel]:
     return result
 
 
-def _number(text: str) -> float:
-    return float(re.sub("[Dd]", "E", text))
-
-
 def _step(header: list[str]) -> float | None:
     """Return the time step that the lines above a column of samples state; None unless they state one."""
     text = "\n".join(header)
-    found = {_number(step) for step in STEP.findall(text)}
-    found |= {1.0 / rate for rate in map(_number, RATE.findall(text)) if rate > 0.0}
+    found = {float(with_exponent_e(step)) for step in STEP.findall(text)}
+    rates = [float(with_exponent_e(rate)) for rate in RATE.findall(text)]
+    found |= {1.0 / rate for rate in rates if rate > 0.0}
     return found.pop() if len(found) == 1 and min(found) > 0.0 else None
 
 

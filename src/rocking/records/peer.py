@@ -34,15 +34,20 @@ def read(file: TextFile) -> list[Channel]:
         raise file.error(3, "number of samples and time step expected, as in NPTS= 4000, DT= .0050 SEC")
     place, (count, step) = header[0], header[1].groups()
     samples, _ = file.separated(place + 1, file.count(place, count))
-    name, _, component = file.line(1).strip().rpartition(",")
+    station = file.line(1).strip()
+    name, _, component = station.rpartition(",")
+    # A component is one word, as "140"; other files of this form have a sentence in the line.
+    name, component = (
+        (name.strip(), component.strip()) if re.fullmatch(r"\s*\S+\s*", component) else (station, "")
+    )
     return [
         Channel(
             samples,
             unit,
             file.step(place, step),
             "PEER AT2",
-            name.strip(),
-            component.strip(),
+            name,
+            component,
             header=stated._replace(lacking="" if unit else NO_TITLE),
         )
     ]

@@ -396,9 +396,24 @@ def _set(
         _warn_of_stations(records, source)
     else:
         records = records.one_per_station(component)
+    _warn_of_copies(records, source)
     if records.vertical:
         warn_of_input(vertical_sentence(records.vertical))
     return records
+
+
+def _warn_of_copies(records: RecordSet, source: str) -> None:
+    """Warn of records that hold the samples of another one, perhaps scaled or reversed."""
+    seen: dict[str, str] = {}
+    copies = []
+    for name, motion in zip(records.names, records.motions, strict=True):
+        original = seen.setdefault(motion.fingerprint, name)
+        if original != name:
+            copies.append((name, original))
+    if copies:
+        first = "{} holds the samples of {}, perhaps scaled or reversed".format(*copies[0])
+        others = f", and {counted(len(copies) - 1, 'other record')} likewise" if len(copies) > 1 else ""
+        warn_of_input(f"{source}: {first}{others}: each copy counts as a record, and says nothing new")
 
 
 def _warn_of_stations(records: RecordSet, source: str) -> None:

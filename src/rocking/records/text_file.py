@@ -25,6 +25,11 @@ if TYPE_CHECKING:
 TEXTS = "formats: PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, text in columns"
 
 
+def with_exponent_e(text: str) -> str:
+    """Return a number with the exponent E of all languages in place of Fortran's D."""
+    return text.upper().replace("D", "E")
+
+
 class Peak(NamedTuple):
     """Peak acceleration as a header prints it, without its sign, in m/s²."""
 
@@ -224,23 +229,20 @@ class TextFile:
     def number(self, line: int, text: str, what: str) -> float:
         """Return a finite number."""
         text = text.strip()
-        value = float(re.sub("[Dd]", "E", text)) if NUMBER.fullmatch(text) else math.nan
+        value = float(with_exponent_e(text)) if NUMBER.fullmatch(text) else math.nan
         if not math.isfinite(value):
             raise self.error(line, f"{what} must be a number; got {formatted(text)}")
         return value
 
     def numbers(self, lines: list[int], texts: list[str], what: str) -> np.ndarray:
-        """Return finite numbers, each from the text of a number in its line."""
-        try:
-            result = np.fromiter(map(float, texts), float, len(texts))
-        except ValueError:  # Fortran's exponent D
-            result = np.array(
-                [self.number(line, text, what) for line, text in zip(lines, texts, strict=True)]
-            )
-        if not np.isfinite(result).all():
-            first = int(np.argmin(np.isfinite(result)))
-            self.number(lines[first], texts[first], what)
-        return result
+        """Return finite numbers, each from a text in its line."""
+        plain = [text.strip() for text in texts]
+        if all(map(NUMBER.fullmatch, plain)):
+            with suppress(ValueError):  # Fortran's exponent D
+                result = np.fromiter(map(float, plain), float, len(plain))
+                if np.isfinite(result).all():
+                    return result
+        return np.array([self.number(line, text, what) for line, text in zip(lines, plain, strict=True)])
 
     def count(self, line: int, text: str, what: str = "the number of samples", least: int = 1) -> int:
         """Return a number of samples, or of other things."""
@@ -274,7 +276,7 @@ class TextFile:
     def peak(self, line: int, text: str, unit: str) -> Peak:
         """Return a peak acceleration that the header prints."""
         size = abs(self.number(line, text, "the peak acceleration"))
-        exponent = int(Decimal(re.sub("[Dd]", "E", text.strip())).as_tuple().exponent)
+        exponent = int(Decimal(with_exponent_e(text.strip())).as_tuple().exponent)
         return Peak(size * UNITS[unit], 0.5 * 10.0 ** min(exponent, 300) * UNITS[unit])
 
     def columns(
@@ -284,22 +286,23 @@ class TextFile:
 
         Numbers in that line are an error, except with `more`.
         """
-        result: list[float] = []
+        texts: list[str] = []
+        places: list[int] = []
         index = first
-        while len(result) < count:
-            line = self._sample_line(index, len(result), count)
-            requested = min(per_line, count - len(result))
+        while len(texts) < count:
+            line = self._sample_line(index, len(texts), count)
+            requested = min(per_line, count - len(texts))
             if line[requested * width :].strip():
                 raise self.error(index, self._too_many(count, requested))
             if len(line) <= (requested - 1) * width:
-                before = f"{len(result):,} of {count:,} were read before it"
+                before = f"{len(texts):,} of {count:,} were read before it"
                 raise self.error(index, f"the line ends before its {counted(requested, 'sample')}; {before}")
-            parts = [line[k * width : (k + 1) * width] for k in range(requested)]
-            result += [self.number(index, part, "a sample") for part in parts]
+            texts += [line[k * width : (k + 1) * width] for k in range(requested)]
+            places += [index] * requested
             index += 1
         if not more:
             self.ended(index, count)
-        return np.array(result), index
+        return self.numbers(places, texts, "a sample"), index
 
     def separated(self, first: int, count: int) -> tuple[np.ndarray, int]:
         """Read numbers that blanks, commas or signs separate, and return them with the line after the last."""

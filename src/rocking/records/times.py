@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from decimal import Decimal
 
 import numpy as np
 from attrs import frozen
 
 from rocking.model.validation import RecordError
-from rocking.records.text_file import MAX_SAMPLES, TextFile
+from rocking.records.text_file import MAX_SAMPLES, TextFile, with_exponent_e
 
 ONE_COLUMN = "correct the times, or remove their column and give the step"
 MAX_DIGITS = 17
@@ -159,5 +158,5 @@ def _rounding(texts: list[str]) -> np.ndarray:
     finest = 0.5 * 10.0 ** -max(plain, default=0)
     if len(plain) == len(texts):
         return np.full(len(texts), finest)
-    exponents = [int(Decimal(re.sub("[Dd]", "e", text)).as_tuple().exponent) for text in texts]
+    exponents = [int(Decimal(with_exponent_e(text)).as_tuple().exponent) for text in texts]
     return np.array([0.5 * 10.0 ** min(exponent, 0) for exponent in exponents])
