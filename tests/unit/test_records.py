@@ -21,6 +21,12 @@ COUNTS = [int(1e5 * value) + 70_000 for value in WAVE]
 KNET = np.subtract(COUNTS, np.mean(COUNTS)) * 3920 / 6182761
 V2_NEW = "{} points of {} data equally spaced at  {:.3f} sec, in cm/sec2. (8f10.3)"
 
+
+def changed(lines, old, new):
+    assert any(old in line for line in lines)
+    return [line.replace(old, new) for line in lines]
+
+
 # name: (lines, format, m/s² per unit, step, channels, name, components, has the PGA in its header)
 FILES = {
     "PEER": (
@@ -41,6 +47,16 @@ FILES = {
         [WAVE],
         "Valley-02, 1/2/1940, Town Array #9",
         ["180"],
+        False,
+    ),
+    "PEER, component with its station": (
+        changed(write.peer(WAVE), ", 180", ", 180 (Town station 7)"),
+        "PEER AT2",
+        G,
+        0.01,
+        [WAVE],
+        "Valley-02, 1/2/1940, Town Array #9",
+        ["180 (Town station 7)"],
         False,
     ),
     "PEER, a sentence in place of the station": (
@@ -220,11 +236,6 @@ def test_a_peak_that_differs_from_the_header_is_reported(make):
     with pytest.warns(rk.InputWarning, match="header states") as caught:
         rk.read_ground_motions(make(lines))
     assert caught[0].filename == __file__
-
-
-def changed(lines, old, new):
-    assert any(old in line for line in lines)
-    return [line.replace(old, new) for line in lines]
 
 
 WRONG = {

@@ -11,6 +11,8 @@ TITLE = r"(ACCELERATION|VELOCITY|DISPLACEMENT)\s+TIME\s+(?:SERIES|HISTORY)\s+IN\
 OTHER = r"\b(VELOCITY|DISPLACEMENT)\b"
 NEW = r"NPTS\s*=\s*([^,\s=]+)\s*(?:,\s*)?DT\s*=\s*([^\s,]+)"
 OLD = r"^\s*(\S+)\s+(\S+)\s+NPTS\s*,\s*DT"
+COMPONENT = r"\s*(?:comp\w*\.?\s+)?(?:\S+|\S*\d.*|\S+\s*\(.*\))\s*"
+"""One word, as 180 and UP, or what begins with a number or ends in brackets, as 180 (USGS STATION 117)."""
 NO_TITLE = "line 3, 'ACCELERATION TIME SERIES IN UNITS OF G', is missing"
 
 
@@ -36,18 +38,18 @@ def read(file: TextFile) -> list[Channel]:
     samples, _ = file.separated(place + 1, file.count(place, count))
     station = file.line(1).strip()
     name, _, component = station.rpartition(",")
-    # A component is one word, as "140"; other files of this form have a sentence in the line.
-    name, component = (
-        (name.strip(), component.strip()) if re.fullmatch(r"\s*\S+\s*", component) else (station, "")
-    )
+    if component.strip() and not re.fullmatch(
+        COMPONENT, component, re.IGNORECASE
+    ):  # a sentence, without commas or with them
+        name, component = station, ""
     return [
         Channel(
             samples,
             unit,
             file.step(place, step),
             "PEER AT2",
-            name,
-            component,
+            name.strip(),
+            component.strip(),
             header=stated._replace(lacking="" if unit else NO_TITLE),
         )
     ]
