@@ -293,4 +293,6 @@ if __name__ == "__main__":
     parser.add_argument("file", metavar="FILE", nargs="?", default="shake-table.png")
     parser.add_argument("--full", action="store_true", help="follow the full equation of motion")
     given = parser.parse_args()
+    if not given.file.endswith((".png", ".svg", ".pdf")):
+        parser.error(f"FILE must end in .png, .svg or .pdf; got {given.file!r}")
     main(given.folder, given.file, "full" if given.full else "slender")

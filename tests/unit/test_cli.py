@@ -197,6 +197,25 @@ def test_interrupted_computation_says_so_and_leaves_no_file(interrupted, tmp_pat
     assert not list(tmp_path.iterdir())
 
 
+def test_interrupt_while_a_library_evaluates_a_text_has_the_same_exit_code(tmp_path):
+    program = """
+import signal
+from rocking.cli import main
+def interrupted():
+    try:
+        eval("signal.raise_signal(signal.SIGINT)")
+    except KeyboardInterrupt:
+        return 130, ""
+main.run = interrupted
+main.main()
+"""
+    (tmp_path / "stopped.py").write_text(program)
+    done = subprocess.run(
+        [sys.executable, "-m", "stopped"], cwd=tmp_path, capture_output=True, timeout=60, check=False
+    )
+    assert (done.returncode, done.stderr) == (130, b"rocking: interrupted\n")
+
+
 def test_who_interrupts_a_picture_is_told_that_the_store_is_complete(rocking, monkeypatch, capsys):
     def interrupt(*_):
         raise KeyboardInterrupt

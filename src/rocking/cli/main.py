@@ -63,6 +63,8 @@ def main() -> NoReturn:
     code, message = run()
     if interrupts or code == INTERRUPTED:
         code, message = INTERRUPTED, "interrupted"
+        # After an interrupt while a library evaluates a text, `python -m` would end by the signal. Another evaluation prevents it.
+        eval("0")
     if message:
         print("rocking:", message, file=sys.stderr)
     sys.exit(code)
