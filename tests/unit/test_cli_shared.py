@@ -263,7 +263,7 @@ REFUSED = {
         f"{SI} --acceleration 3 --frequency-hz 2 --period-s 1": "give exactly one of --frequency-hz, --period-s; got",
         f"{SI} --acceleration 1e9 --period-s 1": "--acceleration must lie in [0, 2402.42] m/s²; got 1000000000.0",
         f"{SI} --width 3 --acceleration 3 --period-s 1": "--restitution must lie in [0, 1]; got -0.0385 by Housner's formula for a block "
-        "2 m high and 3 m wide (are --height and --width swapped, or not in metres? If not, give --restitution)",
+        "2 m high and 3 m wide (are --height and --width swapped, or in another unit? If not, give --restitution)",
         f"{SI} --height 0 --acceleration 3 --period-s 1": "--height must lie in [0.001, 1000] m; got 0",
         "--amplitude 2 --period nan --restitution 0.9": "--period must lie in [0.00628319, 6283.19]; got nan",
         "--amplitude 2 --frequency 0 --restitution 0.9": "--frequency must lie in ",

@@ -153,7 +153,7 @@ def test_ends_of_the_normalised_ranges_are_allowed_in_si(end):
             lambda: rk.Block(1, 2),
             (
                 "restitution must lie in [0, 1]; got -0.2 by Housner's formula for a block 1 m high and 2 m wide "
-                "(are height and width swapped, or not in metres? If not, give restitution)"
+                "(are height and width swapped, or in another unit? If not, give restitution)"
             ),
         ),
         (

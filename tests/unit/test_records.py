@@ -50,13 +50,13 @@ FILES = {
         False,
     ),
     "PEER, component with its station": (
-        changed(write.peer(WAVE), ", 180", ", 180 (Town station 7)"),
+        changed(write.peer(WAVE), ", 180", ", N 05 W (Town station 7)"),
         "PEER AT2",
         G,
         0.01,
         [WAVE],
         "Valley-02, 1/2/1940, Town Array #9",
-        ["180 (Town station 7)"],
+        ["N 05 W (Town station 7)"],
         False,
     ),
     "PEER, a sentence in place of the station": (
@@ -464,10 +464,22 @@ def test_unit_and_step_are_never_guessed(make, arguments, expected):
         (["acceleration (g)", "DT=0.01 s, NPTS=2"], 0.01),
         (["acceleration (g), time step: 1D-2 sec"], 0.01),
         (["acceleration (g)", "sampling interval 0.005"], 0.005),
+        (["acceleration (g), step 0.5 s"], 0.5),
         (["sampling rate: 100 Hz", "acceleration (g)"], 0.01),
         (["acceleration (g), dt = 10 ms"], None),
         (["acceleration (g), dt = 0.01 s", "time step 0.02 s"], None),
+        (["acceleration (g), dt = 0.01 s", "time step in the table"], None),
         (["acceleration (g), dt = 0"], None),
+        (["acceleration (g), dt = 1e999 s"], None),
+        (["acceleration (g), dt = 1,5 ms"], None),
+        (["acceleration (g), dt = 2,5e-3 s"], None),
+        (["acceleration (g)", "Step 1, baseline corrected"], None),
+        (["acceleration (g)", "processing step 2"], None),
+        (["acceleration (g)", "Step: 3"], None),
+        (["acceleration (g), time step = 5", "(ms)"], None),
+        (["acceleration (g), original dt = 0.005 s, resampled to 0.01 s"], None),
+        (["acceleration (g), sampling rate 100"], None),
+        (["acceleration (g), dt = 100 Hz"], None),
     ],
 )
 def test_step_above_a_column_of_samples_is_taken_if_it_is_the_only_one(make, header, step):
@@ -476,6 +488,14 @@ def test_step_above_a_column_of_samples_is_taken_if_it_is_the_only_one(make, hea
         assert refusal_of(path).startswith("file.x: the file does not state its time step")
     else:
         assert rk.read_ground_motion(path).step == step
+
+
+@pytest.mark.parametrize("step", [0.005, 1 / 128])
+def test_step_that_a_message_on_rounded_times_names_is_taken(make, step):
+    path = make(["time (s),acc (g)", *(f"{step * k:.2f},{WAVE[k]}" for k in range(20))])
+    example = refusal_of(path).partition("for example step=")[2]
+    motion = rk.read_ground_motion(path, step=float(example))
+    assert (motion.step, len(motion.acceleration)) == (float(example), 20)
 
 
 def test_times_that_do_not_increase_are_not_asked_for_a_step_alone(make):

@@ -219,7 +219,7 @@ REFUSED = {
         lambda: rk.Block(1.0, 2.0, offset=0.1),
         (
             "restitution must lie in [0, 1]; got -0.219 by Housner's formula for a block 1 m high and 2 m wide (are height and "
-            "width swapped, or not in metres? If not, give restitution)"
+            "width swapped, or in another unit? If not, give restitution)"
         ),
     ),
     "too squat for the full equation": (

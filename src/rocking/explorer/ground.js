@@ -35,7 +35,7 @@ function show(view) {
   outdate(view);
 }
 
-// Shorten the title of a figure to what fits: a bold letter of 12 px is less than 8 px wide. Its name is below in full.
+// Shorten the title of a figure to what fits: a bold letter of 12 px is less than 8 px wide on average. Its name is below in full.
 function shortened(title, figure) {
   const most = Math.max(20, Math.floor(figure.clientWidth / 8));
   return title.length > most ? `${title.slice(0, most - 1).trimEnd()}…` : title;

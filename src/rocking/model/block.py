@@ -242,7 +242,7 @@ class Block(Dimensions):
                 raise Refusal(
                     "restitution", "give a coefficient in [0, 1]", Text(housner), "reduce the factor"
                 )
-            remedy = "are {height} and {width} swapped, or not in metres? If not, give {restitution}"
+            remedy = "are {height} and {width} swapped, or in another unit? If not, give {restitution}"
             raise Refusal("restitution", "lie in [0, 1]", Text(housner), remedy)
         if self.restrainer is not None:
             self._check_restrained(self.restrainer)

@@ -101,10 +101,11 @@ def is_vertical(component: str) -> bool:
 
     Examples
     --------
-    >>> is_vertical("U-D"), is_vertical("HNZ"), is_vertical("360°")
-    (True, True, False)
+    >>> is_vertical("U-D"), is_vertical("HNZ"), is_vertical("360°"), is_vertical("Comp. UP (station 7)")
+    (True, True, False, True)
     """
-    letters = re.sub("[^a-z]", "", component.partition(",")[0].lower())
+    name = re.sub(r"\bcomp(?:onent)?\b", "", (re.split("[,(]", component)[0] or component).lower())
+    letters = re.sub("[^a-z]", "", name)
     return letters in VERTICAL or (len(letters) == 3 and letters.endswith("z"))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import NamedTuple
 
@@ -41,13 +42,17 @@ DIRECTION = re.compile(
 )
 """Word that names the direction of a component."""
 OTHER_QUANTITY = re.compile(r"(?:vel|disp)", re.IGNORECASE)
-STEP = re.compile(
-    r"\b(?:dt|delta[ _-]?t|(?:time[ _-]?)?step|(?:time|sampling)[ _-]?interval)\s*[=:]?\s*"
-    rf"({NUMBER.pattern})\s*(?:s|sec|seconds?)?\s*(?:[,;)]|$)",
-    re.IGNORECASE | re.MULTILINE,
+STATED = re.compile(
+    r"\b(?:(dt|delta[ _-]?t|step|interval)|sampl(?:ing|e) (?:rate|frequency))\b"
+    rf"(?:\s*[=:]?\s*({NUMBER.pattern})\s*(seconds?|sec|s|hz)?\s*(?:[;)]|,(?!\d)|$))?",
+    re.IGNORECASE,
 )
-RATE = re.compile(rf"\bsampl(?:ing|e) (?:rate|frequency)\s*[=:]?\s*({NUMBER.pattern})\s*hz\b", re.IGNORECASE)
-"""Time step in s, and samples per second, in the lines above a column of samples."""
+"""Word for the time step or the sampling rate above a column of samples, its number and the unit; no number if more follows."""
+OF_OTHER_SAMPLES = re.compile(
+    r"\b(?:original|raw|uncorrected|resampled|decimated|interpolated)", re.IGNORECASE
+)
+LARGEST_PLAIN_STEP = 0.1
+"""Largest time step that is taken to be in s without its unit."""
 HEADER_LINES = 100
 MOST_COLUMNS = 4
 """Time and three components; lines of more numbers in general hold samples one after another."""
@@ -115,12 +120,23 @@ def read(file: TextFile) -> list[Channel]:
 
 
 def _step(header: list[str]) -> float | None:
-    """Return the time step that the lines above a column of samples state; None unless they state one."""
-    text = "\n".join(header)
-    found = {float(with_exponent_e(step)) for step in STEP.findall(text)}
-    rates = [float(with_exponent_e(rate)) for rate in RATE.findall(text)]
-    found |= {1.0 / rate for rate in rates if rate > 0.0}
-    return found.pop() if len(found) == 1 and min(found) > 0.0 else None
+    """Return the time step in s that the lines above a column of samples state; None if they do not, or if there is a doubt."""
+    found = {
+        None if OF_OTHER_SAMPLES.search(line) else _stated_step(*match)
+        for line in header
+        for match in STATED.findall(line)
+    }
+    return found.pop() if len(found) == 1 else None
+
+
+def _stated_step(word: str, number: str, unit: str) -> float | None:
+    """Return the step of a match of `STATED`; of a sampling rate, whose word is empty, the inverse."""
+    if not number or (unit.lower() == "hz") == bool(word) or not (unit or word):
+        return None
+    value = float(with_exponent_e(number))
+    if not 0.0 < value <= (math.inf if unit else LARGEST_PLAIN_STEP) or math.isinf(value):
+        return None
+    return value if word else 1.0 / value
 
 
 def _rows(file: TextFile, first: int, width: int) -> tuple[list[int], list[list[str]]]:

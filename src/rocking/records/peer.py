@@ -11,8 +11,8 @@ TITLE = r"(ACCELERATION|VELOCITY|DISPLACEMENT)\s+TIME\s+(?:SERIES|HISTORY)\s+IN\
 OTHER = r"\b(VELOCITY|DISPLACEMENT)\b"
 NEW = r"NPTS\s*=\s*([^,\s=]+)\s*(?:,\s*)?DT\s*=\s*([^\s,]+)"
 OLD = r"^\s*(\S+)\s+(\S+)\s+NPTS\s*,\s*DT"
-COMPONENT = r"\s*(?:comp\w*\.?\s+)?(?:\S+|\S*\d.*|\S+\s*\(.*\))\s*"
-"""One word, as 180 and UP, or what begins with a number or ends in brackets, as 180 (USGS STATION 117)."""
+NO_COMPONENT = re.compile(r":|\bunits?\b|\bacceleration\b", re.IGNORECASE)
+"""What a component does not hold, unlike a sentence of another program in its place."""
 NO_TITLE = "line 3, 'ACCELERATION TIME SERIES IN UNITS OF G', is missing"
 
 
@@ -37,10 +37,8 @@ def read(file: TextFile) -> list[Channel]:
     place, (count, step) = header[0], header[1].groups()
     samples, _ = file.separated(place + 1, file.count(place, count))
     station = file.line(1).strip()
-    name, _, component = station.rpartition(",")
-    if component.strip() and not re.fullmatch(
-        COMPONENT, component, re.IGNORECASE
-    ):  # a sentence, without commas or with them
+    name, comma, component = station.rpartition(",")
+    if not comma or NO_COMPONENT.search(component):
         name, component = station, ""
     return [
         Channel(

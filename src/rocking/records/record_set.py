@@ -402,16 +402,27 @@ def _set(
     return records
 
 
+SAME = 1 - 1e-6
+"""Least correlation of the samples of a record and its copy, which may have fewer digits."""
+
+
 def _warn_of_copies(records: RecordSet, source: str) -> None:
-    """Warn of records that hold the samples of another one, perhaps scaled or reversed."""
-    seen: dict[str, str] = {}
+    """Warn of records that hold the samples of another one with a factor, which may be negative."""
+    forms: dict[tuple[int, float], list[tuple[str, np.ndarray]]] = {}
     copies = []
     for name, motion in zip(records.names, records.motions, strict=True):
-        original = seen.setdefault(motion.fingerprint, name)
-        if original != name:
+        samples = motion.acceleration
+        size = np.linalg.norm(samples)
+        if size == 0.0:
+            continue
+        form, earlier = samples / size, forms.setdefault((samples.size, motion.step), [])
+        original = next((other for other, its in earlier if abs(form @ its) > SAME), None)
+        if original is None:
+            earlier.append((name, form))
+        else:
             copies.append((name, original))
     if copies:
-        first = "{} holds the samples of {}, perhaps scaled or reversed".format(*copies[0])
+        first = "{} holds the samples of {}, perhaps with a factor".format(*copies[0])
         others = f", and {counted(len(copies) - 1, 'other record')} likewise" if len(copies) > 1 else ""
         warn_of_input(f"{source}: {first}{others}: each copy counts as a record, and says nothing new")
 

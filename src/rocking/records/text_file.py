@@ -236,13 +236,12 @@ class TextFile:
 
     def numbers(self, lines: list[int], texts: list[str], what: str) -> np.ndarray:
         """Return finite numbers, each from a text in its line."""
-        plain = [text.strip() for text in texts]
-        if all(map(NUMBER.fullmatch, plain)):
+        if all(NUMBER.fullmatch(text.strip()) for text in texts):
             with suppress(ValueError):  # Fortran's exponent D
-                result = np.fromiter(map(float, plain), float, len(plain))
+                result = np.fromiter(map(float, texts), float, len(texts))
                 if np.isfinite(result).all():
                     return result
-        return np.array([self.number(line, text, what) for line, text in zip(lines, plain, strict=True)])
+        return np.array([self.number(line, text, what) for line, text in zip(lines, texts, strict=True)])
 
     def count(self, line: int, text: str, what: str = "the number of samples", least: int = 1) -> int:
         """Return a number of samples, or of other things."""

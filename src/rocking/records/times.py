@@ -104,7 +104,8 @@ def printed_times(file: TextFile, places: list[int], texts: list[str]) -> Printe
             return PrintedTimes(times, shortest, low, high, doubt=doubt)
     else:
         low, high = np.inf, -np.inf
-    fault = _uneven(file, places, texts, times, fine, rounded=low <= high)
+    agreeing = _shortest((low + high) / 2, (high - low) / 2) if low <= high else None
+    fault = _uneven(file, places, texts, times, fine, agreeing)
     return PrintedTimes(times, None, low, high, fault)
 
 
@@ -120,12 +121,11 @@ def _uneven(
     texts: list[str],
     times: np.ndarray,
     tolerance: np.ndarray,
-    *,
-    rounded: bool,
+    agreeing: float | None,
 ) -> str:
     """Return the sentence on times that are not equidistant, with the first that differs from most and the way out.
 
-    A step suffices if the times are `rounded` ones of equidistant times, or if they increase.
+    A step suffices if the times are rounded ones of equidistant times, such as at the step `agreeing`, or if they increase.
     """
     steps = np.diff(times)
     most = float(np.median(steps))
@@ -138,8 +138,10 @@ def _uneven(
         at = int(np.argmax(np.abs(times - expected) > tolerance))
         message = f"{texts[at]} s where {expected[at]:.6g} s is expected, at a step of {most:.6g} s"
     example = most if most > 0 else float(times[-1] - times[0]) / (len(times) - 1)
-    if rounded or steps.min() > 0:
-        way_out = f"to resample them along straight lines, or if they are rounded, give a step, for example step={example:.3g}"
+    if agreeing is not None:
+        example = agreeing
+    if agreeing is not None or steps.min() > 0:
+        way_out = f"to resample them along straight lines, or if they are rounded, give a step, for example step={example:.6g}"
     else:
         way_out = f"they do not increase from line to line: {ONE_COLUMN}, for example step={example:.3g}"
     return str(file.error(places[at], f"the times are not equidistant: {message}; {way_out}"))

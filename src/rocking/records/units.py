@@ -203,7 +203,9 @@ def unit_of_samples(
                 f"{place}: the header names the units {named}{rejected}; give one of them as units"
             )
         if given and header.named:
-            raise RecordError(f"{place}: the header names {named}; omit units, or correct the header")
+            raise RecordError(
+                f"{place}: the header names {named}; omit units, or correct the header", "units"
+            )
     elif len(header.named) > 1:
         messages.append(f"units={given!r} is used; the header names {named}")
     if given and header.mentioned and not header.named:
