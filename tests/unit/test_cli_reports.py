@@ -25,7 +25,10 @@ SIZE = "--height 2 --width 0.5"
 SI = f"{SIZE} --acceleration 2.9 --frequency-hz 1.8"
 NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
 CHATTER = "--amplitude 0 --period 1 --restitution 0.9 --angle 0.5"
-pytestmark = pytest.mark.usefixtures("records")
+pytestmark = [
+    pytest.mark.usefixtures("records"),
+    pytest.mark.filterwarnings("ignore:.*each copy counts"),
+]
 
 
 def printed(rocking, line):

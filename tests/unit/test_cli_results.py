@@ -33,7 +33,10 @@ PULSE = BLOCK.system(rk.Pulse("one-sine", amplitude=0.5 * G, duration=1.0))
 HERTZ = np.array([1.5, 2.0])
 LEVELS = np.linspace(0.3, 1.5, 13)
 SIZES = np.linspace(0.3, 3.0, 10)
-pytestmark = pytest.mark.usefixtures("records")
+pytestmark = [
+    pytest.mark.usefixtures("records"),
+    pytest.mark.filterwarnings("ignore:.*each copy counts"),
+]
 
 
 def branch(system, ends, step=0.01):
