@@ -775,8 +775,63 @@ def test_titles_of_two_columns_that_are_other_quantities_are_refused(make, heade
     assert expected in refusal_of(make([header, "0,1", "1,2"]), units="g" if "(g)" not in header else None)
 
 
-def test_title_of_two_columns_names_the_vertical(make):
-    assert rk.read_ground_motion(make(["time (s),UD (g)", "0,1", "1,2"])).vertical
+@pytest.mark.parametrize(
+    ("lines", "vertical"),
+    [
+        (["time (s),UD (g)", "0,1", "1,2"], True),
+        (["time (s),U-D (g)", "0,1", "1,2"], True),
+        (["time (s),Vertical component (g)", "0,1", "1,2"], True),
+        (["time (s),acc_v (g)", "0,1", "1,2"], True),
+        (["time (s),HNZ filtered (g)", "0,1", "1,2"], True),
+        (["# Component: UP", "# time (s), acc (g)", "0,1", "1,2"], True),
+        (["# Component: N90E", "# time (s), acc (g)", "0,1", "1,2"], False),
+        (["A", "B", "Component: Up", "Unit: g", "NPTS=2, DT=0.01", "0.1 0.2"], True),
+        (["time (s),az 90 (g)", "0,1", "1,2"], False),
+    ],
+)
+def test_title_of_two_columns_or_a_line_above_names_the_vertical(make, lines, vertical):
+    assert rk.read_ground_motion(make(lines)).vertical == vertical
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        (
+            ["sample,acc (g)", "0,0.1", "1,0.2"],
+            "the first column numbers the samples; it is no time in s: remove it",
+        ),
+        (["# dt=0.01 s", ",acc (g)", "0,0.1", "1,0.2"], "the first column numbers the samples"),
+        (["# g = 9.81 m/s2", "time,acc", "0,0.1", "0.5,0.2"], "does not state the unit of its samples"),
+        (
+            ["# PGA 0.25 g (2.45 m/s2)", "time,acc", "0,0.1", "0.5,0.2"],
+            "does not state the unit of its samples",
+        ),
+        (["# multiply by 9.81 to get m/s2", "time,acc", "0,0.1", "0.5,0.2"], "does not state the unit"),
+        (["acceleration (10^-3 m/s2)", "dt = 0.01", "0.1", "0.2"], "does not state the unit of its samples"),
+        (
+            ["unit: g", "NPTS=2, DT=0.01", "0.1,0.2", "0.3,0.4", "0.5,0.6"],
+            "more than the 2 samples of the header",
+        ),
+        (["unit: g", "NPTS=2, DT=1 ms", "0.1 0.2"], "a time step in s expected; got 1 ms"),
+        (["Period (s),Sa (g)", "0.1,0.5", "0.2,0.6"], "expected; the header gives"),
+        (["T(s) SA(g)", "0.1 0.5", "0.2 0.6"], "acceleration in m/s², cm/s², mm/s², g or gal expected"),
+        (["Frequency (Hz),Acceleration (g)", "0.1,0.5", "0.2,0.6"], "times in s expected"),
+        (["time (0.01 s),acc (g)", "0,0.5", "2,0.6"], "times in s expected"),
+        (["acc (gal), dt = 0.01 s", "1560", "0.5", "0.25"], "1560 stands above 2 samples with decimals"),
+        (["acc (g)", "smoothing interval = 0.1 s", "0.5", "0.25"], "does not state its time step"),
+        (["acc (g)", "old dt = 0.005 s", "0.5", "0.25"], "does not state its time step"),
+        (["acc (g)", "dt = 0.005 s", "resampled to 0.02 s", "0.5", "0.25"], "does not state its time step"),
+    ],
+)
+def test_what_a_file_does_not_state_is_not_guessed(make, lines, expected):
+    assert expected in refusal_of(make(lines))
+
+
+def test_step_of_the_times_that_the_header_states_otherwise_gets_a_warning(make):
+    path = make(["# dt=0.01 s", "time (s),acc (g)", "0,0.1", "0.02,0.2", "0.04,0.1"])
+    expected = "the times give a step of 0.02 s, which is taken; the header states 0.01 s"
+    with pytest.warns(rk.InputWarning, match=expected):
+        assert rk.read_ground_motion(path).step == 0.02
 
 
 def test_step_that_is_probably_in_ms_gets_a_warning(make):

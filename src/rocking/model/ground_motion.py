@@ -92,8 +92,25 @@ MAX_END, MAX_MEAN, MAX_RATIO = 0.2, 0.5, 30.0
 """Largest |velocity| at the end over PGV, |mean velocity| over its root mean square, and PGA PGD/PGV² without drift."""
 USUAL_PGA = (0.01, 50.0)
 """Peaks in m/s² without a warning: nobody feels a smaller one, and about 40 m/s² is the largest that was recorded."""
-VERTICAL = {"u", "up", "v", "ver", "vert", "vertical", "z", "ud", "updown", "down", "dn", "dwn"}
-"""Letters of components that are vertical; so is each code of three letters that ends with z."""
+VERTICAL = {
+    "u",
+    "up",
+    "upward",
+    "v",
+    "ver",
+    "vert",
+    "vrt",
+    "z",
+    "ud",
+    "updown",
+    "updn",
+    "down",
+    "dn",
+    "dwn",
+    "zaxis",
+    "upaxis",
+}
+"""Letters of components that are vertical; so are az alone, the word in several languages, and codes of three letters that end with z."""
 
 
 def is_vertical(component: str) -> bool:
@@ -106,7 +123,8 @@ def is_vertical(component: str) -> bool:
     """
     name = re.sub(r"\bcomp(?:onent)?\b", "", (re.split("[,(]", component)[0] or component).lower())
     letters = re.sub("[^a-z]", "", name)
-    return letters in VERTICAL or (len(letters) == 3 and letters.endswith("z"))
+    word = letters in VERTICAL or letters.startswith(("vertic", "vertik")) or name.strip() == "az"
+    return word or (len(letters) == 3 and letters.endswith("z"))
 
 
 def drift_doubt(motion: GroundMotion) -> str:

@@ -6,7 +6,11 @@ import math
 import re
 from typing import NamedTuple
 
+from attrs import evolve
+
+from rocking.model.ground_motion import is_vertical
 from rocking.model.text import counted, formatted
+from rocking.records.counted import is_count, vertical_component
 from rocking.records.text_file import (
     MAX_SAMPLES,
     NUMBER,
@@ -17,7 +21,7 @@ from rocking.records.text_file import (
     mixes_commas,
     with_exponent_e,
 )
-from rocking.records.times import printed_times
+from rocking.records.times import PrintedTimes, printed_times
 from rocking.records.units import (
     IN_BRACKETS,
     OTHER_TIMES,
@@ -41,16 +45,25 @@ DIRECTION = re.compile(
     re.IGNORECASE,
 )
 """Word that names the direction of a component."""
-OTHER_QUANTITY = re.compile(r"(?:vel|disp)", re.IGNORECASE)
+OTHER_QUANTITY = re.compile(r"(?:vel|disp|p?sa\b|spectral)", re.IGNORECASE)
+NO_TIME = re.compile(r"\b(?:period|freq(?:uency)?)\b", re.IGNORECASE)
 STATED = re.compile(
-    r"\b(?:(dt|delta[ _-]?t|step|interval)|sampl(?:ing|e) (?:rate|frequency))\b"
+    r"(?<!old )\b(?:(dt|delta[ _-]?t|(?:(?:time|sampl(?:e|ing))[ _-]+|(?<![^\W\d_] ))(?:step|interval))"
+    r"|sampl(?:ing|e) (?:rate|frequency))\b"
     rf"(?:\s*[=:]?\s*({NUMBER.pattern})\s*(seconds?|sec|s|hz)?\s*(?:[;)]|,(?!\d)|$))?",
     re.IGNORECASE,
 )
-"""Word for the time step or the sampling rate above a column of samples, its number and the unit; no number if more follows."""
+"""Words for the time step or the sampling rate, their number and its unit; no number if more follows.
+
+A word before step or interval, such as in smoothing interval, is that of another one.
+"""
 OF_OTHER_SAMPLES = re.compile(
     r"\b(?:original|raw|uncorrected|resampled|decimated|interpolated)", re.IGNORECASE
 )
+RESAMPLED = re.compile(r"\b(?:resampled|decimated)", re.IGNORECASE)
+"""Word of a line that leaves open which samples the other lines are about."""
+SAME_STEP = 0.01
+"""Relative difference between the step that a header states and that of the times, which are rounded."""
 LARGEST_PLAIN_STEP = 0.1
 """Largest time step that is taken to be in s without its unit."""
 HEADER_LINES = 100
@@ -109,6 +122,13 @@ def read(file: TextFile) -> list[Channel]:
     units = header_units(header)
     times = None if width == 1 else printed_times(file, places, [row[0] for row in rows])
     step = _step(header) if width == 1 else None
+    if times is None:
+        _check_first(file, places, rows)
+    else:
+        if times.step == 1.0 and _heads(file, first, width) is None and all(row[0].isdigit() for row in rows):
+            rule = "it is no time in s: remove it, and give the step if no line states it"
+            raise file.error(first, f"the first column numbers the samples; {rule}")
+        times = _with_stated(times, _step(header))
     result = []
     for place, (name, unit) in enumerate(titled, width - len(titled)):
         samples = file.numbers(places, [row[place] for row in rows], "a sample")
@@ -121,6 +141,8 @@ def read(file: TextFile) -> list[Channel]:
 
 def _step(header: list[str]) -> float | None:
     """Return the time step in s that the lines above a column of samples state; None if they do not, or if there is a doubt."""
+    if any(map(RESAMPLED.search, header)):
+        return None
     found = {
         None if OF_OTHER_SAMPLES.search(line) else _stated_step(*match)
         for line in header
@@ -137,6 +159,23 @@ def _stated_step(word: str, number: str, unit: str) -> float | None:
     if not 0.0 < value <= (math.inf if unit else LARGEST_PLAIN_STEP) or math.isinf(value):
         return None
     return value if word else 1.0 / value
+
+
+def _check_first(file: TextFile, places: list[int], rows: list[list[str]]) -> None:
+    """Refuse a whole number above a column of samples with decimals: it may be the number of samples, and nothing says so."""
+    if len(rows) > 1 and is_count(rows[0][0]) and not any(row[0].isdigit() for row in rows[1:]):
+        rule = "it is no sample if it counts those below: correct it, or remove it"
+        raise file.error(
+            places[0], f"{rows[0][0]} stands above {len(rows) - 1:,} samples with decimals; {rule}"
+        )
+
+
+def _with_stated(times: PrintedTimes, stated: float | None) -> PrintedTimes:
+    """Return the times of a column with a doubt if the header states another step than theirs."""
+    if stated is None or times.step is None or math.isclose(stated, times.step, rel_tol=SAME_STEP):
+        return times
+    doubt = f"the times give a step of {times.step:g} s, which is taken; the header states {stated:g} s"
+    return evolve(times, doubt=doubt)
 
 
 def _rows(file: TextFile, first: int, width: int) -> tuple[list[int], list[list[str]]]:
@@ -223,11 +262,13 @@ def _plain(cell: str) -> str:
 
 
 def _direction(file: TextFile, first: int, width: int) -> str:
-    """Return the direction that the title of the second of two columns names; empty if it names none."""
+    """Return the direction that the title of the second of two columns names, or a vertical one in its other words or above it."""
     result = _heads(file, first, width) if width == 2 else None
     words = WORD.findall(IN_BRACKETS.sub("", result[1][1])) if result else []
     names = [word for word in words if not ACCELERATION.fullmatch(word)]
-    return " ".join(names) if all(map(DIRECTION.fullmatch, names)) else ""
+    if names and all(map(DIRECTION.fullmatch, names)):
+        return " ".join(names)
+    return next(filter(is_vertical, ["".join(names), *names]), vertical_component(file.lines[:first]))
 
 
 def _check_titles(file: TextFile, first: int, width: int) -> None:
@@ -244,5 +285,7 @@ def _check_titles(file: TextFile, first: int, width: int) -> None:
             raise file.error(
                 index, f"acceleration in {units} expected; the header gives {formatted(result[-1])}"
             )
+        if width > 1 and (NO_TIME.search(cells(line)[0]) or re.match(r"[\d.]", result[0])):
+            raise file.error(index, f"times in s expected; the header gives {formatted(cells(line)[0])}")
         if width > 1 and {*OTHER_TIMES} & {result[0].lower(), *map(str.lower, WORD.findall(cells(line)[0]))}:
             raise file.error(index, f"times in s expected; the header gives {formatted(result[0])}")

@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from rocking.model.ground_motion import is_vertical
 from rocking.records.text_file import NUMBER, ROW, Channel, TextFile, in_plain_numbers
 from rocking.records.units import header_units
 
 NAMED = re.compile(r"\bNPTS\s*=\s*([^,;\s]{1,40})[\s,;]*DT\s*=\s*([^,;\s]+)", re.IGNORECASE)
+COMPONENT = re.compile(r"\bcomp(?:onent)?\b\s*[:=]\s*([^,;]+)", re.IGNORECASE)
 COUNT = re.compile(r"[0-9]{1,12}")
 HEADER_LINES = 100
 FEWEST = 10
@@ -39,7 +41,8 @@ def read(file: TextFile) -> list[Channel]:
     units = header_units(header)
     name = next((line.strip() for line in header[: counts.line] if line.strip()), "")
     step = None if counts.step is None else file.step(counts.line, counts.step)
-    return [Channel(samples, units.only(), step, "text", name, header=units)]
+    component = vertical_component(header)
+    return [Channel(samples, units.only(), step, "text", name, component, header=units)]
 
 
 def _counts(file: TextFile) -> _Counts | None:
@@ -61,14 +64,14 @@ def _counts(file: TextFile) -> _Counts | None:
 def _unnamed(file: TextFile, first: int) -> _Counts | None:
     """Return the counts in the first row of numbers, n dt or dt n, or in the first two, n and dt, or n alone."""
     head = NUMBER.findall(file.lines[first])
-    if len(head) > 2 or not any(map(_is_count, head)):
+    if len(head) > 2 or not any(map(is_count, head)):
         return None
     rows = [NUMBER.findall(line) for line in file.lines[first + 1 :]]
     if len(head) == 2:
-        pairs = ((count, step) for count, step in (head, head[::-1]) if _is_count(count))
+        pairs = ((count, step) for count, step in (head, head[::-1]) if is_count(count))
         count, step = next(pairs)
         columns = all(len(row) == 2 for row in rows if row)
-        return None if columns or _is_count(step) else _Counts(first + 1, first, count, step)
+        return None if columns or is_count(step) else _Counts(first + 1, first, count, step)
     total = sum(map(len, rows))
     second = next((k for k, row in enumerate(rows, 1) if row), 0)
     if total == int(head[0]) + 1 and len(rows[second - 1]) == 1:
@@ -76,5 +79,12 @@ def _unnamed(file: TextFile, first: int) -> _Counts | None:
     return _Counts(first + 1, first, head[0], None) if total == int(head[0]) else None
 
 
-def _is_count(text: str) -> bool:
+def vertical_component(lines: list[str]) -> str:
+    """Return the vertical component that lines such as "Component: UP" name; empty if they name none, or another one."""
+    named = (match[1].strip() for line in lines if (match := COMPONENT.search(line)))
+    return next(filter(is_vertical, named), "")
+
+
+def is_count(text: str) -> bool:
+    """Return whether a text may be a number of samples."""
     return COUNT.fullmatch(text) is not None and int(text) >= FEWEST

@@ -44,15 +44,21 @@ OTHER_UNITS = {
 """Units of other quantities, and of acceleration in units that are not read, after `_plain`."""
 TIMES = {"s", "sec", "secs", "second", "seconds"}
 OTHER_TIMES = {
+    "cs",
     "ms",
     "msec",
     "millisec",
     "millisecond",
     "milliseconds",
+    "millisecondes",
     "min",
+    "mins",
     "minutes",
     "h",
+    "hr",
+    "hrs",
     "hours",
+    "days",
     "us",
     "µs",
 }
@@ -70,6 +76,14 @@ STATED = re.compile(
     re.IGNORECASE,
 )
 """Unit at the end of such a cell: acc g, acceleration in g, units of g."""
+SIZE = r"[-+]?\d[\d.]*+(?:e[-+]?\d+)?\s++([^\s()\[\],;]++)"
+QUANTITY = re.compile(rf"(?<![\w.]){SIZE}", re.IGNORECASE)
+"""Number and the word after it, a unit perhaps."""
+FACTOR = re.compile(rf"(?:[(\[]\s*+[x×*]?|\bin)\s*+(?:10\^)?{SIZE}", re.IGNORECASE)
+"""Number in the place of a unit, with the unit after it, as in (0.01 m/s2)."""
+GRAVITY_ALONE = re.compile(r"(?<![\w.])g(?![\w/])", re.IGNORECASE)
+CONVERSION = re.compile(r"\b(?:multipl|divid)", re.IGNORECASE)
+"""Word of a line on other units than those of the samples."""
 CHOICES = "be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'"
 
 
@@ -110,7 +124,8 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
     """Return the units of acceleration in the lines of a header.
 
     Stated are those of a line of units alone, and of a cell that speaks of acceleration or of units. Elsewhere, only what can be
-    nothing else, such as m/s², counts as mentioned.
+    nothing else, such as m/s², counts as mentioned. The unit of a factor is not that
+    of the samples, nor is that of a number beside g, such as g = 9.81 m/s2.
 
     Examples
     --------
@@ -122,7 +137,10 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
     for line in lines:
         if is_line_of_units(line):
             stated += titles(line)
-        for cell in SEPARATOR.split(line):
+        if CONVERSION.search(line):
+            continue
+        other = QUANTITY if GRAVITY_ALONE.search(line) else FACTOR
+        for cell in SEPARATOR.split(other.sub(_without_unit, line)):
             named = IN_BRACKETS.findall(cell) + re.split(r"[\s_\"'=:()\[\]]+", cell)
             if word := SPEAKS.search(cell):
                 stated += [each for each in named if not each.isalpha()] + IN_BRACKETS.findall(cell)
@@ -130,6 +148,11 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
             else:
                 mentioned += [each for each in named if not each.isalpha()]
     return HeaderUnits(_units(stated), _units(mentioned))
+
+
+def _without_unit(quantity: re.Match[str]) -> str:
+    """Return a match of `QUANTITY` or `FACTOR` as it is, or a blank if its word is a unit."""
+    return quantity[0] if unit_of(quantity[1]) is None else " "
 
 
 def _units(texts: Sequence[str]) -> frozenset[str]:
