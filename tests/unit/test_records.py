@@ -781,16 +781,25 @@ def test_titles_of_two_columns_that_are_other_quantities_are_refused(make, heade
         (["time (s),UD (g)", "0,1", "1,2"], True),
         (["time (s),U-D (g)", "0,1", "1,2"], True),
         (["time (s),Vertical component (g)", "0,1", "1,2"], True),
-        (["time (s),acc_v (g)", "0,1", "1,2"], True),
-        (["time (s),HNZ filtered (g)", "0,1", "1,2"], True),
         (["# Component: UP", "# time (s), acc (g)", "0,1", "1,2"], True),
-        (["# Component: N90E", "# time (s), acc (g)", "0,1", "1,2"], False),
         (["A", "B", "Component: Up", "Unit: g", "NPTS=2, DT=0.01", "0.1 0.2"], True),
+        (["# Component: N90E", "# time (s), acc (g)", "0,1", "1,2"], False),
+        (["# Comp: V2, processed", "# time (s), acc (g)", "0,1", "1,2"], False),
         (["time (s),az 90 (g)", "0,1", "1,2"], False),
+        (["time (s),u_g (g)", "0,1", "1,2"], False),
+        (["time (s),Acc V2 (g)", "0,1", "1,2"], False),
+        (["time (s),acc MQZ (g)", "0,1", "1,2"], False),
+        (["time (s),Down-hole acceleration (g)", "0,1", "1,2"], False),
+        (["time (s),Acceleration up to 25 Hz (g)", "0,1", "1,2"], False),
     ],
 )
 def test_title_of_two_columns_or_a_line_above_names_the_vertical(make, lines, vertical):
     assert rk.read_ground_motion(make(lines)).vertical == vertical
+
+
+def test_third_direction_of_a_sensor_is_vertical(make):
+    records = rk.read_ground_motion(make(["time (s),ax (g),ay (g),az (g)", "0,1,2,3", "1,2,3,4"]), channel=3)
+    assert records.vertical
 
 
 @pytest.mark.parametrize(
@@ -798,7 +807,7 @@ def test_title_of_two_columns_or_a_line_above_names_the_vertical(make, lines, ve
     [
         (
             ["sample,acc (g)", "0,0.1", "1,0.2"],
-            "the first column numbers the samples; it is no time in s: remove it",
+            "the first column numbers the samples; if it is no time in s, remove it",
         ),
         (["# dt=0.01 s", ",acc (g)", "0,0.1", "1,0.2"], "the first column numbers the samples"),
         (["# g = 9.81 m/s2", "time,acc", "0,0.1", "0.5,0.2"], "does not state the unit of its samples"),
@@ -808,23 +817,55 @@ def test_title_of_two_columns_or_a_line_above_names_the_vertical(make, lines, ve
         ),
         (["# multiply by 9.81 to get m/s2", "time,acc", "0,0.1", "0.5,0.2"], "does not state the unit"),
         (["acceleration (10^-3 m/s2)", "dt = 0.01", "0.1", "0.2"], "does not state the unit of its samples"),
+        (["acceleration (x 0.01 m/s2)", "dt = 0.01", "0.1", "0.2"], "does not state the unit of its samples"),
         (
             ["unit: g", "NPTS=2, DT=0.01", "0.1,0.2", "0.3,0.4", "0.5,0.6"],
             "more than the 2 samples of the header",
         ),
         (["unit: g", "NPTS=2, DT=1 ms", "0.1 0.2"], "a time step in s expected; got 1 ms"),
-        (["Period (s),Sa (g)", "0.1,0.5", "0.2,0.6"], "expected; the header gives"),
-        (["T(s) SA(g)", "0.1 0.5", "0.2 0.6"], "acceleration in m/s², cm/s², mm/s², g or gal expected"),
-        (["Frequency (Hz),Acceleration (g)", "0.1,0.5", "0.2,0.6"], "times in s expected"),
-        (["time (0.01 s),acc (g)", "0,0.5", "2,0.6"], "times in s expected"),
-        (["acc (gal), dt = 0.01 s", "1560", "0.5", "0.25"], "1560 stands above 2 samples with decimals"),
-        (["acc (g)", "smoothing interval = 0.1 s", "0.5", "0.25"], "does not state its time step"),
-        (["acc (g)", "old dt = 0.005 s", "0.5", "0.25"], "does not state its time step"),
-        (["acc (g)", "dt = 0.005 s", "resampled to 0.02 s", "0.5", "0.25"], "does not state its time step"),
+        (["Period (s),Sa (g)", "0.1,0.5", "0.2,0.6"], "times in s and accelerations expected"),
+        (["T(s) SA(g)", "0.1 0.5", "0.2 0.6"], "times in s and accelerations expected"),
+        (["Frequency (Hz),Acceleration (g)", "0.1,0.5", "0.2,0.6"], "times in s and accelerations expected"),
+        (
+            ["acc (gal), dt = 0.01 s", "1560", "0.5", "0.25"],
+            "remove each line that is no sample, or write 1560.0 if it is one",
+        ),
     ],
 )
 def test_what_a_file_does_not_state_is_not_guessed(make, lines, expected):
     assert expected in refusal_of(make(lines))
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "1940,El Centro",
+        "Loma Prieta (1989), Gilroy (090)",
+        "Sampling frequency (Hz),50",
+        "Return period,475 years",
+        "Network CS, Station ABC",
+        "Motion 1, spectrally matched",
+        "Duration: 5 mins, triggered",
+        "Acceleration in g (multiply by 9.81 for m/s2)",
+        "Multiplexed, units: g",
+        "PGA 0.2 g, as recorded",
+    ],
+)
+def test_words_above_the_titles_do_not_change_the_reading(make, line):
+    motion = rk.read_ground_motion(make([line, "Time (s),Acceleration (g)", "0,0.1", "0.02,0.2", "0.04,0.1"]))
+    assert (motion.step, motion.pga, motion.vertical) == (0.02, pytest.approx(0.2 * 9.80665), False)
+
+
+@pytest.mark.parametrize(
+    "line", ["PGA (3.417 m/s2)", "Peak acceleration (3.417 m/s2)", "Station G, PGA = 3.4 m/s2"]
+)
+def test_the_unit_of_a_peak_is_used_where_there_is_no_other(make, line):
+    assert rk.read_ground_motion(make([line, "0 0.1", "0.02 0.2"])).pga == 0.2
+
+
+def test_empty_rows_of_a_spreadsheet_end_the_samples(make):
+    lines = ["A", "B", "unit: g", "NPTS= 4, DT= .02 SEC,,,", "0.1,0.2,0.3,0.4", ",,,", ",,,", "End of file"]
+    assert len(rk.read_ground_motion(make(lines)).acceleration) == 4
 
 
 def test_step_of_the_times_that_the_header_states_otherwise_gets_a_warning(make):

@@ -8,9 +8,8 @@ from typing import NamedTuple
 
 from attrs import evolve
 
-from rocking.model.ground_motion import is_vertical
 from rocking.model.text import counted, formatted
-from rocking.records.counted import is_count, vertical_component
+from rocking.records.counted import is_count, vertical_component, vertical_of
 from rocking.records.text_file import (
     MAX_SAMPLES,
     NUMBER,
@@ -45,27 +44,24 @@ DIRECTION = re.compile(
     re.IGNORECASE,
 )
 """Word that names the direction of a component."""
-OTHER_QUANTITY = re.compile(r"(?:vel|disp|p?sa\b|spectral)", re.IGNORECASE)
-NO_TIME = re.compile(r"\b(?:period|freq(?:uency)?)\b", re.IGNORECASE)
+OTHER_QUANTITY = re.compile(r"(?:vel|disp)", re.IGNORECASE)
 STATED = re.compile(
-    r"(?<!old )\b(?:(dt|delta[ _-]?t|(?:(?:time|sampl(?:e|ing))[ _-]+|(?<![^\W\d_] ))(?:step|interval))"
-    r"|sampl(?:ing|e) (?:rate|frequency))\b"
+    r"\b(?:(dt|delta[ _-]?t|step|interval)|sampl(?:ing|e) (?:rate|frequency))\b"
     rf"(?:\s*[=:]?\s*({NUMBER.pattern})\s*(seconds?|sec|s|hz)?\s*(?:[;)]|,(?!\d)|$))?",
     re.IGNORECASE,
 )
-"""Words for the time step or the sampling rate, their number and its unit; no number if more follows.
-
-A word before step or interval, such as in smoothing interval, is that of another one.
-"""
+"""Word for the time step or the sampling rate above a column of samples, its number and the unit; no number if more follows."""
 OF_OTHER_SAMPLES = re.compile(
     r"\b(?:original|raw|uncorrected|resampled|decimated|interpolated)", re.IGNORECASE
 )
-RESAMPLED = re.compile(r"\b(?:resampled|decimated)", re.IGNORECASE)
-"""Word of a line that leaves open which samples the other lines are about."""
-SAME_STEP = 0.01
-"""Relative difference between the step that a header states and that of the times, which are rounded."""
 LARGEST_PLAIN_STEP = 0.1
 """Largest time step that is taken to be in s without its unit."""
+SAME_STEP = 0.05
+"""Relative difference between the step that a header states and that of the times, which are rounded."""
+NO_TIME = re.compile(r"\b(?:period|freq(?:uency)?)\b", re.IGNORECASE)
+"""First title of a spectrum."""
+SPECTRAL = re.compile(r"p?sa\b", re.IGNORECASE)
+"""Last title of a response spectrum."""
 HEADER_LINES = 100
 MOST_COLUMNS = 4
 """Time and three components; lines of more numbers in general hold samples one after another."""
@@ -125,9 +121,7 @@ def read(file: TextFile) -> list[Channel]:
     if times is None:
         _check_first(file, places, rows)
     else:
-        if times.step == 1.0 and _heads(file, first, width) is None and all(row[0].isdigit() for row in rows):
-            rule = "it is no time in s: remove it, and give the step if no line states it"
-            raise file.error(first, f"the first column numbers the samples; {rule}")
+        _check_running(file, first, rows, times)
         times = _with_stated(times, _step(header))
     result = []
     for place, (name, unit) in enumerate(titled, width - len(titled)):
@@ -141,8 +135,6 @@ def read(file: TextFile) -> list[Channel]:
 
 def _step(header: list[str]) -> float | None:
     """Return the time step in s that the lines above a column of samples state; None if they do not, or if there is a doubt."""
-    if any(map(RESAMPLED.search, header)):
-        return None
     found = {
         None if OF_OTHER_SAMPLES.search(line) else _stated_step(*match)
         for line in header
@@ -162,12 +154,24 @@ def _stated_step(word: str, number: str, unit: str) -> float | None:
 
 
 def _check_first(file: TextFile, places: list[int], rows: list[list[str]]) -> None:
-    """Refuse a whole number above a column of samples with decimals: it may be the number of samples, and nothing says so."""
+    """Refuse a whole number above a column of samples with decimals: it may be their number, and nothing says so."""
     if len(rows) > 1 and is_count(rows[0][0]) and not any(row[0].isdigit() for row in rows[1:]):
-        rule = "it is no sample if it counts those below: correct it, or remove it"
-        raise file.error(
-            places[0], f"{rows[0][0]} stands above {len(rows) - 1:,} samples with decimals; {rule}"
-        )
+        rule = f"remove each line that is no sample, or write {rows[0][0]}.0 if it is one"
+        raise file.error(places[0], f"{rows[0][0]} stands above numbers with decimals; {rule}")
+
+
+def _check_running(file: TextFile, first: int, rows: list[list[str]], times: PrintedTimes) -> None:
+    """Refuse 0, 1, 2, … in a first column that no title calls a time."""
+    if times.step != 1.0 or not all(row[0].isdigit() for row in rows):
+        return
+    heads = [line for line in file.lines[:first] if len(cells(line)) == len(rows[0])]
+    named = [
+        titles(line)[0].lower() in TIMES or TIME & {*map(str.lower, WORD.findall(cells(line)[0]))}
+        for line in heads
+    ]
+    if not any(named):
+        rule = "if it is no time in s, remove it, and give the step if no line states it; or put a title such as time (s) above it"
+        raise file.error(first, f"the first column numbers the samples; {rule}")
 
 
 def _with_stated(times: PrintedTimes, stated: float | None) -> PrintedTimes:
@@ -175,7 +179,7 @@ def _with_stated(times: PrintedTimes, stated: float | None) -> PrintedTimes:
     if stated is None or times.step is None or math.isclose(stated, times.step, rel_tol=SAME_STEP):
         return times
     doubt = f"the times give a step of {times.step:g} s, which is taken; the header states {stated:g} s"
-    return evolve(times, doubt=doubt)
+    return evolve(times, doubt="; ".join(filter(None, (times.doubt, doubt))))
 
 
 def _rows(file: TextFile, first: int, width: int) -> tuple[list[int], list[list[str]]]:
@@ -262,17 +266,24 @@ def _plain(cell: str) -> str:
 
 
 def _direction(file: TextFile, first: int, width: int) -> str:
-    """Return the direction that the title of the second of two columns names, or a vertical one in its other words or above it."""
+    """Return the direction that the title of the second of two columns names, or a vertical one in other words or above it."""
     result = _heads(file, first, width) if width == 2 else None
     words = WORD.findall(IN_BRACKETS.sub("", result[1][1])) if result else []
     names = [word for word in words if not ACCELERATION.fullmatch(word)]
     if names and all(map(DIRECTION.fullmatch, names)):
         return " ".join(names)
-    return next(filter(is_vertical, ["".join(names), *names]), vertical_component(file.lines[:first]))
+    return vertical_of(["".join(names)]) or vertical_component(file.lines[:first])
 
 
 def _check_titles(file: TextFile, first: int, width: int) -> None:
     """Refuse columns whose titles or unit line state another quantity than acceleration, or times that are not in s."""
+    last = max((k for k in range(first) if len(cells(file.lines[k])) == width > 1), default=None)
+    if last is not None:
+        head = cells(file.lines[last])
+        if NO_TIME.search(head[0]) or SPECTRAL.match(head[-1]):
+            raise file.error(
+                last, f"times in s and accelerations expected; the header gives {formatted(', '.join(head))}"
+            )
     for index in range(first):
         line = file.lines[index]
         result = bracketed = IN_BRACKETS.findall(line)
@@ -285,7 +296,5 @@ def _check_titles(file: TextFile, first: int, width: int) -> None:
             raise file.error(
                 index, f"acceleration in {units} expected; the header gives {formatted(result[-1])}"
             )
-        if width > 1 and (NO_TIME.search(cells(line)[0]) or re.match(r"[\d.]", result[0])):
-            raise file.error(index, f"times in s expected; the header gives {formatted(cells(line)[0])}")
         if width > 1 and {*OTHER_TIMES} & {result[0].lower(), *map(str.lower, WORD.findall(cells(line)[0]))}:
             raise file.error(index, f"times in s expected; the header gives {formatted(result[0])}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from rocking.model.ground_motion import is_vertical
+from rocking.model.ground_motion import VERTICAL, is_vertical
 from rocking.records.text_file import NUMBER, ROW, Channel, TextFile, in_plain_numbers
 from rocking.records.units import header_units
 
@@ -81,8 +81,17 @@ def _unnamed(file: TextFile, first: int) -> _Counts | None:
 
 def vertical_component(lines: list[str]) -> str:
     """Return the vertical component that lines such as "Component: UP" name; empty if they name none, or another one."""
-    named = (match[1].strip() for line in lines if (match := COMPONENT.search(line)))
-    return next(filter(is_vertical, named), "")
+    return vertical_of([match[1].strip() for line in lines if (match := COMPONENT.search(line))])
+
+
+def vertical_of(names: list[str]) -> str:
+    """Return the first name that can only be that of a vertical component: no letter alone, number, or code of three letters."""
+    sure = (
+        each
+        for each in names
+        if each.replace("-", "").isalpha() and (len(each) > 3 or each.lower() in VERTICAL)
+    )
+    return next((each for each in sure if len(each) > 1 and is_vertical(each)), "")
 
 
 def is_count(text: str) -> bool:

@@ -253,7 +253,7 @@ class TextFile:
 
     def step(self, line: int, text: str) -> float:
         """Return a time step in s; an error for one that another unit of time follows in its line."""
-        unit = re.match(r"\s*([^\W\d_]+)", self.lines[line].rpartition(text)[2])
+        unit = re.match(r"\s*([^\W\d_]+)\b", self.lines[line].rpartition(text)[2])
         if unit and unit[1].lower() in OTHER_TIMES:
             raise self.error(line, f"a time step in s expected; got {text.strip()} {unit[1]}")
         return self._positive(line, text, "the time step")
@@ -331,7 +331,7 @@ class TextFile:
     def ended(self, index: int, count: int) -> None:
         """Refuse numbers in the line after the last sample."""
         after = self.lines[index] if index < len(self.lines) else ""
-        if after.strip() and not NUMBER.sub("", after).strip(" \t,;"):
+        if NUMBER.search(after) and not NUMBER.sub("", after).strip(" \t,;"):
             raise self.error(index, self._too_many(count, count))
 
     @staticmethod

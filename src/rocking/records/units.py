@@ -44,21 +44,15 @@ OTHER_UNITS = {
 """Units of other quantities, and of acceleration in units that are not read, after `_plain`."""
 TIMES = {"s", "sec", "secs", "second", "seconds"}
 OTHER_TIMES = {
-    "cs",
     "ms",
     "msec",
     "millisec",
     "millisecond",
     "milliseconds",
-    "millisecondes",
     "min",
-    "mins",
     "minutes",
     "h",
-    "hr",
-    "hrs",
     "hours",
-    "days",
     "us",
     "µs",
 }
@@ -79,11 +73,15 @@ STATED = re.compile(
 SIZE = r"[-+]?\d[\d.]*+(?:e[-+]?\d+)?\s++([^\s()\[\],;]++)"
 QUANTITY = re.compile(rf"(?<![\w.]){SIZE}", re.IGNORECASE)
 """Number and the word after it, a unit perhaps."""
-FACTOR = re.compile(rf"(?:[(\[]\s*+[x×*]?|\bin)\s*+(?:10\^)?{SIZE}", re.IGNORECASE)
-"""Number in the place of a unit, with the unit after it, as in (0.01 m/s2)."""
-GRAVITY_ALONE = re.compile(r"(?<![\w.])g(?![\w/])", re.IGNORECASE)
-CONVERSION = re.compile(r"\b(?:multipl|divid)", re.IGNORECASE)
-"""Word of a line on other units than those of the samples."""
+IN_GRAVITIES = re.compile(r"\bg\s*=\s*9|(?<![\w.])\d[\d.]*\s*g(?!\w)", re.IGNORECASE)
+"""A number in g, or the size of g."""
+FACTOR = re.compile(
+    r"(?:[(\[]|\bin)\s*+(?:[x×*]\s*+\d[\d.]*+|10\^[-+]?\d+|0?\.0*1|10+|1e[-+]?\d+)\s++([^\s()\[\],;]++)",
+    re.IGNORECASE,
+)
+"""Factor in the place of a unit, with the unit after it, as in (0.01 m/s2)."""
+CONVERSION = re.compile(r"[(\[]?\b(?:multiply|divide) by\b[^()\[\],;]*+", re.IGNORECASE)
+"""Advice on other units than those of the samples."""
 CHOICES = "be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'"
 
 
@@ -124,8 +122,8 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
     """Return the units of acceleration in the lines of a header.
 
     Stated are those of a line of units alone, and of a cell that speaks of acceleration or of units. Elsewhere, only what can be
-    nothing else, such as m/s², counts as mentioned. The unit of a factor is not that
-    of the samples, nor is that of a number beside g, such as g = 9.81 m/s2.
+    nothing else, such as m/s², counts as mentioned. The unit of a factor, of a conversion and of a number beside one in g, such as
+    g = 9.81 m/s2, is not that of the samples.
 
     Examples
     --------
@@ -137,10 +135,8 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
     for line in lines:
         if is_line_of_units(line):
             stated += titles(line)
-        if CONVERSION.search(line):
-            continue
-        other = QUANTITY if GRAVITY_ALONE.search(line) else FACTOR
-        for cell in SEPARATOR.split(other.sub(_without_unit, line)):
+        other = QUANTITY if IN_GRAVITIES.search(line) else FACTOR
+        for cell in SEPARATOR.split(other.sub(_without_unit, CONVERSION.sub(" ", line))):
             named = IN_BRACKETS.findall(cell) + re.split(r"[\s_\"'=:()\[\]]+", cell)
             if word := SPEAKS.search(cell):
                 stated += [each for each in named if not each.isalpha()] + IN_BRACKETS.findall(cell)
