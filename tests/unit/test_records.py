@@ -791,6 +791,11 @@ def test_titles_of_two_columns_that_are_other_quantities_are_refused(make, heade
         (["time (s),acc MQZ (g)", "0,1", "1,2"], False),
         (["time (s),Down-hole acceleration (g)", "0,1", "1,2"], False),
         (["time (s),Acceleration up to 25 Hz (g)", "0,1", "1,2"], False),
+        (["time (s),Acc vertical array NS (g)", "0,1", "1,2"], False),
+        (["time (s),SA-NS (g)", "0,1", "1,2"], False),
+        (["Component: NS", "Component: UP", "# time (s), acc (g)", "0,1", "1,2"], False),
+        (["Acceleration in g", "Freq: 200Hz", "Time (sec) Acceleration in g", "0 1", "1.0 2"], False),
+        (["Acceleration in g", "Sampling freq;50", "0;1", "1.0;2"], False),
     ],
 )
 def test_title_of_two_columns_or_a_line_above_names_the_vertical(make, lines, vertical):
@@ -849,6 +854,7 @@ def test_what_a_file_does_not_state_is_not_guessed(make, lines, expected):
         "Acceleration in g (multiply by 9.81 for m/s2)",
         "Multiplexed, units: g",
         "PGA 0.2 g, as recorded",
+        "Divide by 0.102 for m/s2 - units: g",
     ],
 )
 def test_words_above_the_titles_do_not_change_the_reading(make, line):
@@ -857,7 +863,13 @@ def test_words_above_the_titles_do_not_change_the_reading(make, line):
 
 
 @pytest.mark.parametrize(
-    "line", ["PGA (3.417 m/s2)", "Peak acceleration (3.417 m/s2)", "Station G, PGA = 3.4 m/s2"]
+    "line",
+    [
+        "PGA (3.417 m/s2)",
+        "Peak acceleration (3.417 m/s2)",
+        "Station G, PGA = 3.4 m/s2",
+        "Max. 3.4 m/s2 = 0.35 g",
+    ],
 )
 def test_the_unit_of_a_peak_is_used_where_there_is_no_other(make, line):
     assert rk.read_ground_motion(make([line, "0 0.1", "0.02 0.2"])).pga == 0.2

@@ -93,24 +93,10 @@ MAX_END, MAX_MEAN, MAX_RATIO = 0.2, 0.5, 30.0
 USUAL_PGA = (0.01, 50.0)
 """Peaks in m/s² without a warning: nobody feels a smaller one, and about 40 m/s² is the largest that was recorded."""
 VERTICAL = {
-    "u",
-    "up",
-    "upward",
-    "v",
-    "ver",
-    "vert",
-    "vrt",
-    "z",
-    "ud",
-    "updown",
-    "updn",
-    "down",
-    "dn",
-    "dwn",
-    "zaxis",
-    "upaxis",
+    *("u", "up", "upward", "v", "ver", "vert", "vrt", "vertical", "verticale", "vertikal", "vertikale"),
+    *("z", "ud", "updown", "updn", "down", "dn", "dwn", "zaxis", "upaxis"),
 }
-"""Letters of components that are vertical; so are az alone, the word in several languages, and codes of three letters that end with z."""
+"""Letters of components that are vertical; so are az alone, and each code of three letters that ends with z."""
 
 
 def is_vertical(component: str) -> bool:
@@ -123,7 +109,7 @@ def is_vertical(component: str) -> bool:
     """
     name = re.sub(r"\bcomp(?:onent)?\b", "", (re.split("[,(]", component)[0] or component).lower())
     letters = re.sub("[^a-z]", "", name)
-    word = letters in VERTICAL or letters.startswith(("vertic", "vertik")) or name.strip() == "az"
+    word = letters in VERTICAL or name.strip() == "az"
     return word or (len(letters) == 3 and letters.endswith("z"))
 
 

@@ -58,10 +58,10 @@ LARGEST_PLAIN_STEP = 0.1
 """Largest time step that is taken to be in s without its unit."""
 SAME_STEP = 0.05
 """Relative difference between the step that a header states and that of the times, which are rounded."""
-NO_TIME = re.compile(r"\b(?:period|freq(?:uency)?)\b", re.IGNORECASE)
-"""First title of a spectrum."""
 SPECTRAL = re.compile(r"p?sa\b", re.IGNORECASE)
 """Last title of a response spectrum."""
+NO_TIMES = {"t", "period", "periods", "freq", "frequency"}
+"""Words of the first title of a spectrum."""
 HEADER_LINES = 100
 MOST_COLUMNS = 4
 """Time and three components; lines of more numbers in general hold samples one after another."""
@@ -272,18 +272,25 @@ def _direction(file: TextFile, first: int, width: int) -> str:
     names = [word for word in words if not ACCELERATION.fullmatch(word)]
     if names and all(map(DIRECTION.fullmatch, names)):
         return " ".join(names)
-    return vertical_of(["".join(names)]) or vertical_component(file.lines[:first])
+    named = "".join(word for word in names if word.lower() not in ("component", "comp", "motion"))
+    return vertical_of(named) or vertical_component(file.lines[:first])
+
+
+def _heads_a_spectrum(line: str) -> bool:
+    """Return whether two titles are those of a spectrum: period or frequency, and an acceleration."""
+    head, *_, last = cells(line)
+    words = {*map(str.lower, WORD.findall(IN_BRACKETS.sub("", head)))}
+    if not words or not words <= NO_TIMES or unit_of(titles(line)[-1]) is None:
+        return False
+    return "t" not in words or SPECTRAL.match(last) is not None
 
 
 def _check_titles(file: TextFile, first: int, width: int) -> None:
     """Refuse columns whose titles or unit line state another quantity than acceleration, or times that are not in s."""
     last = max((k for k in range(first) if len(cells(file.lines[k])) == width > 1), default=None)
-    if last is not None:
-        head = cells(file.lines[last])
-        if NO_TIME.search(head[0]) or SPECTRAL.match(head[-1]):
-            raise file.error(
-                last, f"times in s and accelerations expected; the header gives {formatted(', '.join(head))}"
-            )
+    if last is not None and _heads_a_spectrum(file.lines[last]):
+        given = ", ".join(cells(file.lines[last]))
+        raise file.error(last, f"times in s and accelerations expected; the header gives {formatted(given)}")
     for index in range(first):
         line = file.lines[index]
         result = bracketed = IN_BRACKETS.findall(line)

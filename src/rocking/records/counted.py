@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from rocking.model.ground_motion import VERTICAL, is_vertical
+from rocking.model.ground_motion import VERTICAL
 from rocking.records.text_file import NUMBER, ROW, Channel, TextFile, in_plain_numbers
 from rocking.records.units import header_units
 
@@ -80,18 +80,15 @@ def _unnamed(file: TextFile, first: int) -> _Counts | None:
 
 
 def vertical_component(lines: list[str]) -> str:
-    """Return the vertical component that lines such as "Component: UP" name; empty if they name none, or another one."""
-    return vertical_of([match[1].strip() for line in lines if (match := COMPONENT.search(line))])
+    """Return the vertical component that lines such as "Component: UP" name; empty if they name none, or another one, too."""
+    named = [match[1].strip() for line in lines if (match := COMPONENT.search(line))]
+    return named[0] if named and all(map(vertical_of, named)) else ""
 
 
-def vertical_of(names: list[str]) -> str:
-    """Return the first name that can only be that of a vertical component: no letter alone, number, or code of three letters."""
-    sure = (
-        each
-        for each in names
-        if each.replace("-", "").isalpha() and (len(each) > 3 or each.lower() in VERTICAL)
-    )
-    return next((each for each in sure if len(each) > 1 and is_vertical(each)), "")
+def vertical_of(name: str) -> str:
+    """Return a name that can only be that of a vertical component, and empty for others: a letter alone may be anything."""
+    letters = name.replace("-", "").lower()
+    return name if len(letters) > 1 and letters in VERTICAL else ""
 
 
 def is_count(text: str) -> bool:

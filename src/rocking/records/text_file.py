@@ -17,7 +17,7 @@ import numpy as np
 
 from rocking.model.text import both_ends, counted, formatted
 from rocking.model.validation import RecordError, WrongType
-from rocking.records.units import OTHER_TIMES, UNITS, HeaderUnits, unit_of
+from rocking.records.units import UNITS, HeaderUnits, unit_of
 
 if TYPE_CHECKING:
     from rocking.records.times import PrintedTimes
@@ -252,9 +252,9 @@ class TextFile:
         return int(value)
 
     def step(self, line: int, text: str) -> float:
-        """Return a time step in s; an error for one that another unit of time follows in its line."""
-        unit = re.match(r"\s*([^\W\d_]+)\b", self.lines[line].rpartition(text)[2])
-        if unit and unit[1].lower() in OTHER_TIMES:
+        """Return a time step in s; an error for one in ms."""
+        unit = re.match(r"\s*(ms|msec|milli\w*)\b", self.lines[line].partition(text)[2], re.IGNORECASE)
+        if unit:
             raise self.error(line, f"a time step in s expected; got {text.strip()} {unit[1]}")
         return self._positive(line, text, "the time step")
 
@@ -331,7 +331,8 @@ class TextFile:
     def ended(self, index: int, count: int) -> None:
         """Refuse numbers in the line after the last sample."""
         after = self.lines[index] if index < len(self.lines) else ""
-        if NUMBER.search(after) and not NUMBER.sub("", after).strip(" \t,;"):
+        separators = " \t,;" if "," in self.lines[index - 1] else None
+        if NUMBER.search(after) and not NUMBER.sub("", after).strip(separators):
             raise self.error(index, self._too_many(count, count))
 
     @staticmethod

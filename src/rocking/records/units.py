@@ -73,14 +73,13 @@ STATED = re.compile(
 SIZE = r"[-+]?\d[\d.]*+(?:e[-+]?\d+)?\s++([^\s()\[\],;]++)"
 QUANTITY = re.compile(rf"(?<![\w.]){SIZE}", re.IGNORECASE)
 """Number and the word after it, a unit perhaps."""
-IN_GRAVITIES = re.compile(r"\bg\s*=\s*9|(?<![\w.])\d[\d.]*\s*g(?!\w)", re.IGNORECASE)
-"""A number in g, or the size of g."""
+GRAVITY_STATED = re.compile(r"\bg\s*=\s*9", re.IGNORECASE)
 FACTOR = re.compile(
     r"(?:[(\[]|\bin)\s*+(?:[x×*]\s*+\d[\d.]*+|10\^[-+]?\d+|0?\.0*1|10+|1e[-+]?\d+)\s++([^\s()\[\],;]++)",
     re.IGNORECASE,
 )
 """Factor in the place of a unit, with the unit after it, as in (0.01 m/s2)."""
-CONVERSION = re.compile(r"[(\[]?\b(?:multiply|divide) by\b[^()\[\],;]*+", re.IGNORECASE)
+CONVERSION = re.compile(r"[(\[]?\b(?:multiply|divide) by\b(?:(?!\. |: | - )[^()\[\],;])*+", re.IGNORECASE)
 """Advice on other units than those of the samples."""
 CHOICES = "be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'"
 
@@ -122,7 +121,7 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
     """Return the units of acceleration in the lines of a header.
 
     Stated are those of a line of units alone, and of a cell that speaks of acceleration or of units. Elsewhere, only what can be
-    nothing else, such as m/s², counts as mentioned. The unit of a factor, of a conversion and of a number beside one in g, such as
+    nothing else, such as m/s², counts as mentioned. The unit of a factor, of a conversion and of a number after one in g, or in
     g = 9.81 m/s2, is not that of the samples.
 
     Examples
@@ -135,7 +134,7 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
     for line in lines:
         if is_line_of_units(line):
             stated += titles(line)
-        other = QUANTITY if IN_GRAVITIES.search(line) else FACTOR
+        other = QUANTITY if _begins_in_g(line) else FACTOR
         for cell in SEPARATOR.split(other.sub(_without_unit, CONVERSION.sub(" ", line))):
             named = IN_BRACKETS.findall(cell) + re.split(r"[\s_\"'=:()\[\]]+", cell)
             if word := SPEAKS.search(cell):
@@ -144,6 +143,12 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
             else:
                 mentioned += [each for each in named if not each.isalpha()]
     return HeaderUnits(_units(stated), _units(mentioned))
+
+
+def _begins_in_g(line: str) -> bool:
+    """Return whether a line states the size of g, or its first number with a unit of acceleration is one in g."""
+    units = filter(None, (unit_of(quantity[1]) for quantity in QUANTITY.finditer(line)))
+    return GRAVITY_STATED.search(line) is not None or next(units, "") == "g"
 
 
 def _without_unit(quantity: re.Match[str]) -> str:
