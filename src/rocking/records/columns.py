@@ -161,8 +161,8 @@ def _check_first(file: TextFile, places: list[int], rows: list[list[str]]) -> No
 
 
 def _check_running(file: TextFile, first: int, rows: list[list[str]], times: PrintedTimes) -> None:
-    """Refuse 0, 1, 2, … in a first column that no title calls a time."""
-    if times.step != 1.0 or not all(row[0].isdigit() for row in rows):
+    """Refuse 0, 1, 2, … or 1, 2, 3, … in a first column that no title calls a time."""
+    if times.step != 1.0 or times.values[0] > 1.0 or not all(row[0].isdigit() for row in rows):
         return
     heads = [line for line in file.lines[:first] if len(cells(line)) == len(rows[0])]
     named = [

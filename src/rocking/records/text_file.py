@@ -253,10 +253,11 @@ class TextFile:
 
     def step(self, line: int, text: str) -> float:
         """Return a time step in s; an error for one in ms."""
+        value = self._positive(line, text, "the time step")
         unit = re.match(r"\s*(ms|msec|milli\w*)\b", self.lines[line].partition(text)[2], re.IGNORECASE)
         if unit:
             raise self.error(line, f"a time step in s expected; got {text.strip()} {unit[1]}")
-        return self._positive(line, text, "the time step")
+        return value
 
     def step_of_rate(self, line: int, text: str) -> float:
         """Return the time step in s that belongs to a sampling rate in Hz."""
