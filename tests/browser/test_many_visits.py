@@ -12,7 +12,7 @@ import pytest
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
-from rocking.survey.run_survey import cores
+from rocking.survey.engine import cores
 
 VISITS = 200
 FORGOTTEN = 8.0

@@ -91,7 +91,7 @@ def test_cluster_gives_every_survey_the_bytes_of_threads_though_a_worker_is_kill
     first = min(worker["pid"] for worker in cluster.run(_pid).values())
     killer = threading.Timer(0.1, os.kill, (first, signal.SIGKILL))
     killer.start()
-    result = survey(**arguments, store=tmp_path / "cluster", executor=cluster.get_executor())
+    result = survey(**arguments, store=tmp_path / "cluster", executor=cluster)
     killer.join()
     assert result.to_xarray().load().identical(plain)
     assert files(tmp_path / "cluster") == files(tmp_path / "threads")
@@ -111,7 +111,7 @@ def test_cluster_gives_the_same_bytes_though_a_worker_is_killed(cluster, survey,
 
     killer = threading.Thread(target=kill)
     killer.start()
-    survey.run(folder, executor=cluster.get_executor())
+    survey.run(folder, executor=cluster)
     killer.join()
     assert killed == [first]
     assert files(folder) == whole

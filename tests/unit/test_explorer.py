@@ -32,7 +32,7 @@ from rocking.model.verdict import Criterion, Kind
 from rocking.plot import style
 from rocking.plot.palette import LOOKS, NONE, looks
 from rocking.survey import attractors
-from rocking.survey.run_survey import cores
+from rocking.survey.engine import cores
 from surveyed import system_with
 
 ASYMMETRIC = 2

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from rocking.survey.run_survey import cores
+from rocking.survey.engine import cores
 
 Value = TypeVar("Value")
 LOG = logging.getLogger(__name__)

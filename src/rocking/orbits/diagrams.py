@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +26,7 @@ from rocking.orbits.sweeps import SweepSpec, run_sweeps
 from rocking.orbits.verdicts import verdicts_over
 from rocking.response.classify import budget, mean_impacts
 from rocking.response.rotation_number import RotationNumber
+from rocking.survey.engine import Engine
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -213,7 +214,7 @@ def orbit_diagram(
     cycles: int = 100,
     section_phase: float | None = None,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> OrbitDiagram:
@@ -463,7 +464,7 @@ def response_diagram(
     max_cycles: int = 100_000,
     max_period: int = 64,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> ResponseDiagram:

@@ -6,7 +6,6 @@ import math
 import os
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any, ClassVar, overload
 
 import numpy as np
@@ -24,6 +23,7 @@ from rocking.orbits.parameter import identity_of
 from rocking.orbits.saddles import response
 from rocking.proof.prove import check_provable
 from rocking.proof.prove import prove as proved
+from rocking.survey.engine import Engine
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import SurveySpec, Values
@@ -339,7 +339,7 @@ def find_orbits(
     prove: bool = False,
     *,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> Orbits:

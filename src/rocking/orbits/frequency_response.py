@@ -6,7 +6,6 @@ import math
 import os
 from collections import Counter
 from collections.abc import Sequence
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,6 +33,7 @@ from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
 from rocking.orbits.parameter import check_range, check_step, coordinate_of, different_values, with_value
 from rocking.orbits.special_points import SYMMETRY_BREAKING
 from rocking.orbits.verdicts import verdicts_over
+from rocking.survey.engine import Engine
 from rocking.theory import symmetric_modes
 
 if TYPE_CHECKING:
@@ -243,7 +243,7 @@ def frequency_response(
     step: float = 0.01,
     max_cycles: int = 10_000,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> FrequencyResponse:

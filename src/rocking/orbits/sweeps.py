@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
 from itertools import pairwise, product
 from typing import Any, ClassVar
@@ -24,6 +24,7 @@ from rocking.model.progress import Bar
 from rocking.model.system import System
 from rocking.orbits.parameter import identity_of
 from rocking.orbits.verdicts import NORMALISED, variable
+from rocking.survey.engine import Engine
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import SurveySpec, Values
@@ -121,7 +122,7 @@ def sections_at(
 def run_sweeps(
     sweeps: SweepSpec,
     store: str | os.PathLike[str] | None,
-    executor: Executor | None,
+    executor: Engine | None,
     bar: Bar,
     *,
     repair: bool,

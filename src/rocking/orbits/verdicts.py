@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
-from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from rocking.model.verdict import Kind, Verdict
 from rocking.motion.march_loop import start_march
 from rocking.orbits.parameter import identity_of, with_value
 from rocking.response.classify import budget, verdict_of
+from rocking.survey.engine import Engine
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import SurveySpec, Values
@@ -89,7 +89,7 @@ def verdicts_over(
     max_cycles: int,
     max_period: int,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     *,
     progress: bool = False,
     repair: bool = False,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from rocking.model.system import System, check_between
 from rocking.model.validation import instance, refuse_if, whole, within
 from rocking.model.verdict import Kind
 from rocking.survey.attractors import destination, label_attractors, make_attractors
+from rocking.survey.engine import Engine
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import MAX_SAMPLES, generator, random_starts, span
 from rocking.survey.run_survey import run_survey
@@ -50,7 +50,7 @@ def basin_map(
     boundary_runs: int = 100_000,
     boundary_width: float | None = None,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> BasinMap:
@@ -205,7 +205,7 @@ def safe_basin(
     max_cycles: int = 10_000,
     max_period: int = 64,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> SafeBasin:

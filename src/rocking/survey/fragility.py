@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from rocking.model.record_set import RecordSet, record_set
 from rocking.model.restitution import check_uniform
 from rocking.model.validation import Refusal, instance, reals, refuse_if, whole, within
 from rocking.survey.ending_measures import UNDECIDED, ending
+from rocking.survey.engine import Engine
 from rocking.survey.fragility_curve import Fractions, clustered_fractions, fitted, two_level_weights
 from rocking.survey.incremental_dynamic_analysis import block_spec, of_block
 from rocking.survey.random_points import MAX_SEED, UncertainMotionSpec, block_samples, fingerprints
@@ -46,7 +46,7 @@ def fragility(
     replicates: int = 1000,
     seed: int = 0,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> Fragility:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from rocking.model.record_results import IncrementalDynamicAnalysis
 from rocking.model.record_set import RecordSet, both_ways, record_set
 from rocking.model.system import left_quantities
 from rocking.survey.ending_measures import ending
+from rocking.survey.engine import Engine
 from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import (
     MotionSpec,
@@ -41,7 +41,7 @@ def incremental_dynamic_analysis(
     model: str = "full",
     normalised_by: str | None = None,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> IncrementalDynamicAnalysis:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from rocking.kernels.classify import verdict as kernel
 from rocking.model.survey_results import OverturningCurve
 from rocking.model.system import System
 from rocking.model.validation import instance, refuse_if, whole
+from rocking.survey.engine import Engine
 from rocking.survey.measurement import Measurement
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import sampled
@@ -68,7 +68,7 @@ class Scan:
         return np.where(hit.any(axis=1), hit.argmax(axis=1), self.amplitudes.size)
 
 
-def refined(scan: Scan, executor: Executor | None) -> tuple[np.ndarray, np.ndarray]:
+def refined(scan: Scan, executor: Engine | None) -> tuple[np.ndarray, np.ndarray]:
     """Refine the lowest overturning amplitude of each cell by bisection, at each phase that overturns there.
 
     Returns
@@ -117,7 +117,7 @@ def overturning_amplitude(
     max_cycles: int = 1_000,
     max_period: int = 64,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> OverturningCurve:

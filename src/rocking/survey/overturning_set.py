@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import CancelledError, Executor
+from concurrent.futures import CancelledError
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -28,6 +28,7 @@ from rocking.survey.ending_measures import (
     sampled,
     worse_of,
 )
+from rocking.survey.engine import Engine
 from rocking.survey.incremental_dynamic_analysis import block_spec, of_block, with_polarity
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.run_survey import run_survey
@@ -101,7 +102,7 @@ def overturning_set(
     model: str = "full",
     normalised_by: str | None = None,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> OverturningSet:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from concurrent.futures import Executor
 from typing import Any
 
 from rocking.model.survey_results import ParametricMap
 from rocking.model.system import State, System
+from rocking.survey.engine import Engine
 from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import fixed_start, harmonic_spec, system_quantities
 from rocking.survey.verdict_measures import response
@@ -30,7 +30,7 @@ def parametric_map(
     max_cycles: int = 10_000,
     max_period: int = 64,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> ParametricMap:
@@ -55,9 +55,9 @@ def parametric_map(
         to fine, and each group opens in plain xarray. Repeating the call after an interruption resumes it. Longer axes
         extend the map and axes of half the spacing refine it; no point is computed twice. Default: results are kept in
         memory.
-    executor : concurrent.futures.Executor, optional
-        Executor that runs the computation. Results are bit-identical for all executors on the same class of processors.
-        Default: threads on all cores.
+    executor : concurrent.futures.Executor or distributed.Client, optional
+        Executor, or client of a Dask cluster, that runs the computation. Results are bit-identical for all executors on the
+        same class of processors. Default: threads on all cores.
     progress : bool
         Whether to show the estimated cost and the progress on stderr. The progress is the part done, the time left, points per
         second and the fraction of each response type. A terminal and a notebook show a bar. A log gets a line every few seconds,

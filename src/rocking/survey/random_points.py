@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from concurrent.futures import Executor
 from typing import Any, ClassVar
 
 import numpy as np
@@ -17,6 +16,7 @@ from rocking.model.quantity import AMPLITUDE, LEFT_QUANTITIES, PERIOD, SYSTEM_QU
 from rocking.model.record_set import RecordSet
 from rocking.model.system import LeftSide
 from rocking.model.validation import Refusal, Text, WrongType, reals, whole
+from rocking.survey.engine import Engine
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.memory import Memory
 from rocking.survey.run_survey import Watcher, run
@@ -85,7 +85,7 @@ def sampled(
     drawn: Values,
     fixed: Mapping[str, float],
     measure: Measurement,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     title: str = "",
 ) -> Arrays:
     """Return the results of a measurement for quantities (n,), in their order; with a progress bar if there is a title."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Mapping
-from concurrent.futures import Executor
 from typing import Any, TypeVar
 
 import numpy as np
@@ -20,6 +19,7 @@ from rocking.model.text import counted
 from rocking.model.validation import instance, whole, within
 from rocking.model.verdict import Kind
 from rocking.response.classify import KINDS, budget
+from rocking.survey.engine import Engine
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.random_points import (
     INPUTS,
@@ -57,7 +57,7 @@ def repeatability(
     max_cycles: int = 10_000,
     max_period: int = 64,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> Repeatability:
@@ -179,7 +179,7 @@ def repeatability_map(
     max_cycles: int = 10_000,
     max_period: int = 64,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> RepeatabilityMap:

@@ -7,7 +7,7 @@ import os
 import time
 from collections import deque
 from collections.abc import Iterator
-from concurrent.futures import FIRST_EXCEPTION, CancelledError, Executor, Future, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_EXCEPTION, CancelledError, Executor, Future, wait
 from contextlib import contextmanager, suppress
 from threading import Timer
 from typing import TYPE_CHECKING, Any
@@ -20,6 +20,7 @@ from rocking.model.progress import Bar
 from rocking.model.tables_and_json import flags
 from rocking.model.text import counted, formatted_path, percent
 from rocking.model.validation import Refusal, instance
+from rocking.survey.engine import Engine, cores, engine, is_client
 from rocking.survey.measurement import Arrays, Batch, Measurement, batches, compute
 from rocking.survey.memory import Memory, check_fits
 from rocking.survey.spec import SurveySpec
@@ -151,7 +152,7 @@ class Pending:
     futures: list[Future]
 
 
-def run(results: Memory | Store, executor: Executor | None = None, watcher: Watcher | None = None) -> None:
+def run(results: Memory | Store, executor: Engine | None = None, watcher: Watcher | None = None) -> None:
     """Compute all missing points; after any interruption, including Ctrl-C, the results kept so far are valid."""
     with engine(executor) as (pool, stop):
         pending: deque[Pending] = deque()
@@ -226,37 +227,17 @@ def _tell(
         watcher.settled(answers[results.measure.shares][tile.own(which)], before=before)
 
 
-@contextmanager
-def engine(executor: Executor | None) -> Iterator[tuple[Executor, np.ndarray]]:
-    """Provide an executor and a flag that stops the work of threads. Default: a thread pool, one thread per core."""
-    stop = np.zeros(1, np.int64)
-    own = ThreadPoolExecutor(cores(), "survey") if executor is None else None
-    try:
-        yield own or executor, stop  # type: ignore[misc]
-    except BaseException:
-        stop[0] = 1
-        raise
-    finally:
-        if own is not None:
-            own.shutdown(cancel_futures=True)
-
-
-def cores() -> int:
-    """Return the number of cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def run_survey(
     spec: SurveySpec,
     measure: Measurement,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     *,
     progress: bool = False,
     repair: bool = False,
 ) -> xr.Dataset:
     """Run a survey, or resume it in a store; return its dataset."""
-    if executor is not None:
+    if executor is not None and not is_client(executor):
         instance("executor", executor, Executor)
     instance("progress", progress, bool)
     if instance("repair", repair, bool) and store is None:
@@ -282,7 +263,7 @@ def run_survey(
         return kept.dataset()
 
 
-def _carry_out(results: Memory | Store, executor: Executor | None, progress: bool, interrupted: str) -> None:
+def _carry_out(results: Memory | Store, executor: Engine | None, progress: bool, interrupted: str) -> None:
     with _noted(f"The survey was interrupted; {interrupted}."):
         if not progress:
             run(results, executor)

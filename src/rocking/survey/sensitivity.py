@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -16,6 +15,7 @@ from rocking.model.record_set import RecordSet, record_set
 from rocking.model.restitution import check_uniform
 from rocking.model.validation import Refusal, instance, refuse_if
 from rocking.survey.ending_measures import OVERTURNED, UNDECIDED, ending
+from rocking.survey.engine import Engine
 from rocking.survey.fragility_curve import clustered_fractions, two_level_weights
 from rocking.survey.incremental_dynamic_analysis import block_spec, of_block
 from rocking.survey.random_points import fingerprints, generator
@@ -48,7 +48,7 @@ def sensitivity(
     normalised_by: str | None = None,
     seed: int = 0,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> Sensitivity:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from rocking.model.validation import Refusal, whole
 from rocking.model.verdict import Kind
 from rocking.proof.prove import check_provable
 from rocking.response.classify import KINDS, classify
+from rocking.survey.engine import Engine
 from rocking.survey.measurement import Measurement
 from rocking.survey.memory import attributes
 from rocking.survey.random_points import MAX_SAMPLES, RandomSpec, generator, span
@@ -45,7 +45,7 @@ def chaos_share(
     max_cycles: int = 20_000,
     max_period: int = 64,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> ChaosShare:

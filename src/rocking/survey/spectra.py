@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from rocking.model.survey_results import OverturningSpectrum, RockingSpectrum
 from rocking.model.system import System, left_quantities
 from rocking.model.validation import Incomplete, Refusal, instance
 from rocking.survey.ending_measures import ending, pulse_ending
+from rocking.survey.engine import Engine
 from rocking.survey.incremental_dynamic_analysis import with_names
 from rocking.survey.run_survey import run_survey
 from rocking.survey.spec import HOUSNER, MotionSpec, motion_spec, pulse_spec
@@ -44,7 +44,7 @@ def rocking_spectrum(
     model: str = "full",
     normalised_by: str | None = None,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> RockingSpectrum:
@@ -194,7 +194,7 @@ def overturning_spectrum(
     restitution: Any = None,
     critical_angle: Any = None,
     store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
+    executor: Engine | None = None,
     progress: bool = False,
     repair: bool = False,
 ) -> OverturningSpectrum:

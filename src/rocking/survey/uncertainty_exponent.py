@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from concurrent.futures import Executor
 from statistics import NormalDist
 
 import numpy as np
@@ -14,6 +13,7 @@ from rocking.model.share import LEVEL, shares_of
 from rocking.model.survey_results import UncertaintyExponent
 from rocking.model.system import System
 from rocking.survey.attractors import label_attractors
+from rocking.survey.engine import Engine
 from rocking.survey.measurement import Measurement
 from rocking.survey.random_points import MAX_SAMPLES, sampled
 from rocking.survey.spec import by_period
@@ -109,7 +109,7 @@ class Boundaries:
     high: tuple[float, float]
     random: np.random.Generator
     measure: Measurement
-    executor: Executor | None
+    executor: Engine | None
     progress: bool
 
     def exponents(self, runs: int, width: float) -> Exponents:

@@ -22,7 +22,7 @@ from typing import Any, ParamSpec, TypeVar
 from attrs import frozen
 
 from rocking.model.progress import Bar
-from rocking.survey.run_survey import cores
+from rocking.survey.engine import cores
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
