@@ -96,7 +96,7 @@ VERTICAL = {
     *("u", "up", "upward", "v", "ver", "vert", "vrt", "vertical", "verticale", "vertikal", "vertikale"),
     *("z", "ud", "updown", "updn", "down", "dn", "dwn", "zaxis", "upaxis"),
 }
-"""Letters of components that are vertical; so are az alone, and each code of three letters that ends with z."""
+"""Letters of components that are vertical; so are az alone, and codes of channels such as HNZ."""
 
 
 def is_vertical(component: str) -> bool:
@@ -110,7 +110,7 @@ def is_vertical(component: str) -> bool:
     name = re.sub(r"\bcomp(?:onent)?\b", "", (re.split("[,(]", component)[0] or component).lower())
     letters = re.sub("[^a-z]", "", name)
     word = letters in VERTICAL or name.strip() == "az"
-    return word or (len(letters) == 3 and letters.endswith("z"))
+    return word or re.fullmatch("[a-z][ghlmn]z", letters) is not None
 
 
 def drift_doubt(motion: GroundMotion) -> str:

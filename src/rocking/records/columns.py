@@ -38,6 +38,8 @@ COMMENT = re.compile(r"\s*(?:[#%!]|//|$)")
 WORD = re.compile(r"[^\W_]+")
 TIME = {"t", "time", "times"}
 ACCELERATION = re.compile(r"acc(?:el(?:erations?)?)?|a", re.IGNORECASE)
+BRACKETED = re.compile(r"(?:^|(?<=[\])]))[^\[\]()]++[\[(][^\[\]()]*[\])]")
+"""Title with its unit in brackets."""
 DIRECTION = re.compile(
     r"ns|sn|ew|we|ud|du|[nsewzxylr]|up|down|dwn|ver(?:t(?:ical)?)?|lon(?:g(?:itudinal)?)?|tra(?:n(?:s(?:verse)?)?)?"
     r"|a[xyz]|h[12]?|hor(?:iz(?:ontal)?)?[12]?|[ns]?\d{1,3}[ew]?|[behls][hln][enz123]",
@@ -58,10 +60,24 @@ LARGEST_PLAIN_STEP = 0.1
 """Largest time step that is taken to be in s without its unit."""
 SAME_STEP = 0.05
 """Relative difference between the step that a header states and that of the times, which are rounded."""
-SPECTRAL = re.compile(r"p?sa\b", re.IGNORECASE)
+SPECTRAL = re.compile(r"p?s[ae]\b|spe[ck]tral|response", re.IGNORECASE)
 """Last title of a response spectrum."""
-NO_TIMES = {"t", "period", "periods", "freq", "frequency"}
+NO_TIMES = {
+    "t",
+    "f",
+    "natural",
+    "period",
+    "periods",
+    "periode",
+    "periodo",
+    "freq",
+    "frequency",
+    "frequenz",
+    "frecuencia",
+}
 """Words of the first title of a spectrum."""
+NUMBERS = {"step", "index", "sample", "samples", "number", "no"}
+"""Words of the title of a column that numbers the samples, and holds no times."""
 HEADER_LINES = 100
 MOST_COLUMNS = 4
 """Time and three components; lines of more numbers in general hold samples one after another."""
@@ -111,7 +127,7 @@ def read(file: TextFile) -> list[Channel]:
     places, rows = _rows(file, first, width)
     if width <= 2:
         _check_titles(file, first, width)
-        titled, header = [Title(_direction(file, first, width), None)], file.lines[:first]
+        titled, header = [_only_title(file, first, width)], file.lines[:first]
     else:
         titled = _titles(file, first, width)
         header = [line for line in file.lines[:first] if len(cells(line)) != width]
@@ -126,7 +142,8 @@ def read(file: TextFile) -> list[Channel]:
     result = []
     for place, (name, unit) in enumerate(titled, width - len(titled)):
         samples = file.numbers(places, [row[place] for row in rows], "a sample")
-        stated = units._replace(named=frozenset([unit])) if unit else units
+        others = units.named if width == 2 else frozenset()
+        stated = units._replace(named=others | {unit}) if unit else units
         result.append(
             Channel(samples, stated.only(), step, "text", component=name, header=stated, times=times)
         )
@@ -162,14 +179,14 @@ def _check_first(file: TextFile, places: list[int], rows: list[list[str]]) -> No
 
 def _check_running(file: TextFile, first: int, rows: list[list[str]], times: PrintedTimes) -> None:
     """Refuse 0, 1, 2, … or 1, 2, 3, … in a first column that no title calls a time."""
-    if times.step != 1.0 or times.values[0] > 1.0 or not all(row[0].isdigit() for row in rows):
+    if times.step != 1.0 or times.values[0] not in (0.0, 1.0):
         return
-    heads = [line for line in file.lines[:first] if len(cells(line)) == len(rows[0])]
-    named = [
-        titles(line)[0].lower() in TIMES or TIME & {*map(str.lower, WORD.findall(cells(line)[0]))}
-        for line in heads
-    ]
-    if not any(named):
+    heads = [head for line in file.lines[:first] if len(head := _cells(line, len(rows[0]))) == len(rows[0])]
+    words = [{*map(str.lower, WORD.findall(head[0]))} for head in heads]
+    whole = all(row[0].isdigit() or "E" in row[0].upper() for row in rows)
+    if (whole or any(each & NUMBERS for each in words)) and not any(
+        each & (TIME | TIMES) and not each & NUMBERS for each in words
+    ):
         rule = "if it is no time in s, remove it, and give the step if no line states it; or put a title such as time (s) above it"
         raise file.error(first, f"the first column numbers the samples; {rule}")
 
@@ -210,7 +227,11 @@ def _parts(line: str) -> list[str]:
 
 def _heads(file: TextFile, first: int, width: int) -> tuple[int, list[str], list[str]] | None:
     """Return the place and the cells of the last line of titles that begins with the time, and those of a line of units after it."""
-    lines = [(k, result) for k, line in enumerate(file.lines[:first]) if len(result := cells(line)) == width]
+    lines = [
+        (k, result)
+        for k, line in enumerate(file.lines[:first])
+        if len(result := _cells(line, width)) == width
+    ]
     heads = [k for k, (_, result) in enumerate(lines) if TIME & {*map(str.lower, WORD.findall(result[0]))}]
     if not heads:
         return None
@@ -219,6 +240,13 @@ def _heads(file: TextFile, first: int, width: int) -> tuple[int, list[str], list
         result for _, result in lines[heads[-1] + 1 :] if _plain(result[0]).lower() in (*TIMES, *OTHER_TIMES)
     )
     return place, head, next(below, [])
+
+
+def _cells(line: str, width: int) -> list[str]:
+    """Return the cells of a line of titles; those that end with a bracket, or lie between two blanks, if so there are `width`."""
+    result, plain = cells(line), line.strip().lstrip("#%!/ ")
+    others = BRACKETED.findall(plain), re.split(r"\s{2,}", plain)
+    return next((each for each in (result, *others) if len(each) == width), result)
 
 
 def _titles(file: TextFile, first: int, width: int) -> list[Title]:
@@ -265,36 +293,60 @@ def _plain(cell: str) -> str:
     return cell.strip("[]() ")
 
 
-def _direction(file: TextFile, first: int, width: int) -> str:
-    """Return the direction that the title of the second of two columns names, or a vertical one in other words or above it."""
-    result = _heads(file, first, width) if width == 2 else None
-    words = WORD.findall(IN_BRACKETS.sub("", result[1][1])) if result else []
-    names = [word for word in words if not ACCELERATION.fullmatch(word)]
-    if names and all(map(DIRECTION.fullmatch, names)):
-        return " ".join(names)
+def _only_title(file: TextFile, first: int, width: int) -> Title:
+    """Return the direction and the unit in the title of the only column of acceleration, or a vertical direction above it.
+
+    Without a title that holds the time, or a unit if there is no column of times, there is no direction and no unit.
+    """
+    cell = file.lines[first - 1].strip() if first else ""
+    if width == 2:
+        result = _heads(file, first, width)
+        cell = result[1][1] if result else ""
+    unit = unit_of((IN_BRACKETS.findall(cell) or [""])[-1])
+    if width == 1 and unit is None:
+        cell = ""
+    names = [
+        word
+        for word in WORD.findall(IN_BRACKETS.sub(_direction_alone, cell))
+        if not ACCELERATION.fullmatch(word)
+    ]
+    if names and all(
+        DIRECTION.fullmatch(word) or (unit is not None and word in ("v", "V")) for word in names
+    ):
+        return Title(" ".join(names), unit)
     named = "".join(word for word in names if word.lower() not in ("component", "comp", "motion"))
-    return vertical_of(named) or vertical_component(file.lines[:first])
+    return Title(vertical_of(named) or vertical_component(file.lines[:first]), unit)
 
 
-def _heads_a_spectrum(line: str) -> bool:
+def _direction_alone(bracket: re.Match[str]) -> str:
+    """Return what a bracket holds if it is a direction and no unit, as in acc (Z) (m/s2)."""
+    return bracket[0] if DIRECTION.fullmatch(bracket[1]) and unit_of(bracket[1]) is None else ""
+
+
+def _heads_a_spectrum(head: list[str]) -> bool:
     """Return whether two titles are those of a spectrum: period or frequency, and an acceleration."""
-    head, *_, last = cells(line)
-    words = {*map(str.lower, WORD.findall(IN_BRACKETS.sub("", head)))}
-    if not words or not words <= NO_TIMES or unit_of(titles(line)[-1]) is None:
+    words = {*map(str.lower, WORD.findall(IN_BRACKETS.sub("", head[0])))}
+    if (
+        not words
+        or not words <= NO_TIMES
+        or unit_of((IN_BRACKETS.findall(head[-1]) or head[-1:])[-1]) is None
+    ):
         return False
-    return "t" not in words or SPECTRAL.match(last) is not None
+    return "t" not in words or SPECTRAL.match(head[-1]) is not None
 
 
 def _check_titles(file: TextFile, first: int, width: int) -> None:
     """Refuse columns whose titles or unit line state another quantity than acceleration, or times that are not in s."""
-    last = max((k for k in range(first) if len(cells(file.lines[k])) == width > 1), default=None)
-    if last is not None and _heads_a_spectrum(file.lines[last]):
-        given = ", ".join(cells(file.lines[last]))
+    last = max((k for k in range(first) if len(_cells(file.lines[k], width)) == width > 1), default=None)
+    if last is not None and _heads_a_spectrum(head := _cells(file.lines[last], width)):
+        given = ", ".join(head)
         raise file.error(last, f"times in s and accelerations expected; the header gives {formatted(given)}")
     for index in range(first):
         line = file.lines[index]
         result = bracketed = IN_BRACKETS.findall(line)
-        if not (width > 1 and len(bracketed) == width and bracketed[0].strip().lower() in TIMES):
+        if not (
+            width > 1 and len(bracketed) == width and bracketed[0].strip().lower() in (*TIMES, *OTHER_TIMES)
+        ):
             result = titles(line)
             if len(result) != width or not (SEPARATOR.search(line) or is_line_of_units(line)):
                 continue  # words

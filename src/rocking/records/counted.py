@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from rocking.model.ground_motion import VERTICAL
+from rocking.model.ground_motion import VERTICAL, is_vertical
 from rocking.records.text_file import NUMBER, ROW, Channel, TextFile, in_plain_numbers
 from rocking.records.units import header_units
 
 NAMED = re.compile(r"\bNPTS\s*=\s*([^,;\s]{1,40})[\s,;]*DT\s*=\s*([^,;\s]+)", re.IGNORECASE)
-COMPONENT = re.compile(r"\bcomp(?:onent)?\b\s*[:=]\s*([^,;]+)", re.IGNORECASE)
+COMPONENT = re.compile(
+    r"\b(?:comp(?:onent)?|channel|stream|direction|dir|orientation)\b\.?\s*[:=]\s*([^,;]+)", re.IGNORECASE
+)
 COUNT = re.compile(r"[0-9]{1,12}")
 HEADER_LINES = 100
 FEWEST = 10
@@ -82,7 +84,8 @@ def _unnamed(file: TextFile, first: int) -> _Counts | None:
 def vertical_component(lines: list[str]) -> str:
     """Return the vertical component that lines such as "Component: UP" name; empty if they name none, or another one, too."""
     named = [match[1].strip() for line in lines if (match := COMPONENT.search(line))]
-    return named[0] if named and all(map(vertical_of, named)) else ""
+    vertical = all(is_vertical(name) and not re.search(r"\d", name) for name in named)
+    return named[0] if named and vertical else ""
 
 
 def vertical_of(name: str) -> str:

@@ -47,6 +47,7 @@ OTHER_TIMES = {
     "ms",
     "msec",
     "millisec",
+    "millisecs",
     "millisecond",
     "milliseconds",
     "min",
@@ -73,14 +74,24 @@ STATED = re.compile(
 SIZE = r"[-+]?\d[\d.]*+(?:e[-+]?\d+)?\s++([^\s()\[\],;]++)"
 QUANTITY = re.compile(rf"(?<![\w.]){SIZE}", re.IGNORECASE)
 """Number and the word after it, a unit perhaps."""
-GRAVITY_STATED = re.compile(r"\bg\s*=\s*9", re.IGNORECASE)
+SIZE_OF_G = re.compile(
+    r"[(\[]?(?:(?:\b1?\s*+g\s*+[=:]|=)\s*+)?(?<![\d.])9(?:\.8\d*|8[01](?:\.\d*)?)\s*([^\s()\[\],;\d.]+\d?)[)\]]?",
+    re.IGNORECASE,
+)
+"""Size of g with its unit, as in (1 g = 9.81 m/s2)."""
 FACTOR = re.compile(
     r"(?:[(\[]|\bin)\s*+(?:[x×*]\s*+\d[\d.]*+|10\^[-+]?\d+|0?\.0*1|10+|1e[-+]?\d+)\s++([^\s()\[\],;]++)",
     re.IGNORECASE,
 )
 """Factor in the place of a unit, with the unit after it, as in (0.01 m/s2)."""
-CONVERSION = re.compile(r"[(\[]?\b(?:multiply|divide) by\b(?:(?!\. |: | - )[^()\[\],;])*+", re.IGNORECASE)
-"""Advice on other units than those of the samples."""
+OTHER_SAMPLES = re.compile(
+    r"[(\[]?\b(?:(?:multiply|divide|be multiplied|be divided) by|to convert|factor to|original)\b"
+    r"(?:(?!\. |: | - )[^()\[\],;])*+|\bfrom\s+\S+|\b(?:range|trigger|threshold|sensitivity|resolution)\b[^\[\],;]*",
+    re.IGNORECASE,
+)
+"""Words on other units than those of the samples: of a conversion, of the samples before it, of an instrument."""
+LABEL = re.compile(r"[\[(][^\[\]()]*[\])]\s*[=:]\s*[-+]?\.?\d")
+"""Unit and value of a quantity of the header, as in Peak acceleration (g): 0.35."""
 CHOICES = "be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'"
 
 
@@ -121,8 +132,8 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
     """Return the units of acceleration in the lines of a header.
 
     Stated are those of a line of units alone, and of a cell that speaks of acceleration or of units. Elsewhere, only what can be
-    nothing else, such as m/s², counts as mentioned. The unit of a factor, of a conversion and of a number after one in g, or in
-    g = 9.81 m/s2, is not that of the samples.
+    nothing else, such as m/s², counts as mentioned. The unit of a factor, of a conversion, of an instrument, of a number after one
+    in g, and in g = 9.81 m/s2 is not that of the samples.
 
     Examples
     --------
@@ -135,9 +146,10 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
         if is_line_of_units(line):
             stated += titles(line)
         other = QUANTITY if _begins_in_g(line) else FACTOR
-        for cell in SEPARATOR.split(other.sub(_without_unit, CONVERSION.sub(" ", line))):
+        own = OTHER_SAMPLES.sub(" ", SIZE_OF_G.sub(_without_unit, line))
+        for cell in SEPARATOR.split(other.sub(_without_unit, own)):
             named = IN_BRACKETS.findall(cell) + re.split(r"[\s_\"'=:()\[\]]+", cell)
-            if word := SPEAKS.search(cell):
+            if (word := SPEAKS.search(cell)) and not LABEL.search(cell):
                 stated += [each for each in named if not each.isalpha()] + IN_BRACKETS.findall(cell)
                 stated += STATED.findall(cell[word.start() :])
             else:
@@ -146,13 +158,13 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
 
 
 def _begins_in_g(line: str) -> bool:
-    """Return whether a line states the size of g, or its first number with a unit of acceleration is one in g."""
+    """Return whether the first number of a line with a unit of acceleration is one in g."""
     units = filter(None, (unit_of(quantity[1]) for quantity in QUANTITY.finditer(line)))
-    return GRAVITY_STATED.search(line) is not None or next(units, "") == "g"
+    return next(units, "") == "g"
 
 
 def _without_unit(quantity: re.Match[str]) -> str:
-    """Return a match of `QUANTITY` or `FACTOR` as it is, or a blank if its word is a unit."""
+    """Return a match of `QUANTITY`, `FACTOR` or `SIZE_OF_G` as it is, or a blank if its word is a unit."""
     return quantity[0] if unit_of(quantity[1]) is None else " "
 
 
