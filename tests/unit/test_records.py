@@ -784,6 +784,11 @@ def test_titles_of_two_columns_that_are_other_quantities_are_refused(make, heade
         (["# Component: UP", "# time (s), acc (g)", "0,1", "1,2"], True),
         (["A", "B", "Component: Up", "Unit: g", "NPTS=2, DT=0.01", "0.1 0.2"], True),
         (["Channel: HNZ", "# time (s), acc (g)", "0,1", "1,2"], True),
+        (["Channel: 3", "Component: Vertical", "# time (s), acc (g)", "0,1", "1,2"], True),
+        (["Orientation: Down, Component: E", "# time (s), acc (g)", "0,1", "1,2"], False),
+        (["t (s),SE (g)", "0,1", "1,2"], False),
+        (["Sample time (s),acc (g)", "1,1", "2,2"], False),
+        (["Sampling interval (ms) 10 PGA (g) 0.22", "time (s),acc (g)", "0,1", "1,2"], False),
         (["Time (s)  Vertical acceleration (g)", "0 1", "1 2"], True),
         (["time (s),V (g)", "0,1", "1,2"], True),
         (["time (s),acc (Z) (g)", "0,1", "1,2"], True),
@@ -887,6 +892,10 @@ def test_words_above_the_titles_do_not_change_the_reading(make, line):
         "Peak acceleration (3.417 m/s2)",
         "Station G, PGA = 3.4 m/s2",
         "Max. 3.4 m/s2 = 0.35 g",
+        "Acceleration range -1.2 to 2.3 m/s2",
+        "Original acceleration record in m/s2",
+        "Digitiser resolution 24 bit. Acceleration in m/s2",
+        "Recorded in building (G), Acceleration in m/s2",
     ],
 )
 def test_the_unit_of_a_peak_is_used_where_there_is_no_other(make, line):

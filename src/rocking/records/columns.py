@@ -60,7 +60,7 @@ LARGEST_PLAIN_STEP = 0.1
 """Largest time step that is taken to be in s without its unit."""
 SAME_STEP = 0.05
 """Relative difference between the step that a header states and that of the times, which are rounded."""
-SPECTRAL = re.compile(r"p?s[ae]\b|spe[ck]tral|response", re.IGNORECASE)
+SPECTRAL = re.compile(r"(?i:p?sa\b|spe[ck]tral acc|response spe[ck]tr)|P?Se\b")
 """Last title of a response spectrum."""
 NO_TIMES = {
     "t",
@@ -178,15 +178,16 @@ def _check_first(file: TextFile, places: list[int], rows: list[list[str]]) -> No
 
 
 def _check_running(file: TextFile, first: int, rows: list[list[str]], times: PrintedTimes) -> None:
-    """Refuse 0, 1, 2, … or 1, 2, 3, … in a first column that no title calls a time."""
+    """Refuse 0, 1, 2, … or 1, 2, 3, … in a first column, unless a title says that they are s, or a time."""
     if times.step != 1.0 or times.values[0] not in (0.0, 1.0):
         return
-    heads = [head for line in file.lines[:first] if len(head := _cells(line, len(rows[0]))) == len(rows[0])]
-    words = [{*map(str.lower, WORD.findall(head[0]))} for head in heads]
+    width, titled = len(rows[0]), []
+    for line in file.lines[:first]:
+        heads = [head[0] for head in (_cells(line, width), titles(line)) if len(head) == width]
+        titled.append({word.lower() for head in heads for word in WORD.findall(head)})
+    numbers = bool(next(filter(None, titled[::-1]), set()) & NUMBERS)
     whole = all(row[0].isdigit() or "E" in row[0].upper() for row in rows)
-    if (whole or any(each & NUMBERS for each in words)) and not any(
-        each & (TIME | TIMES) and not each & NUMBERS for each in words
-    ):
+    if (whole or numbers) and not any(each & TIMES or (each & TIME and not numbers) for each in titled):
         rule = "if it is no time in s, remove it, and give the step if no line states it; or put a title such as time (s) above it"
         raise file.error(first, f"the first column numbers the samples; {rule}")
 
@@ -245,8 +246,15 @@ def _heads(file: TextFile, first: int, width: int) -> tuple[int, list[str], list
 def _cells(line: str, width: int) -> list[str]:
     """Return the cells of a line of titles; those that end with a bracket, or lie between two blanks, if so there are `width`."""
     result, plain = cells(line), line.strip().lstrip("#%!/ ")
+    if len(result) == width or _has_value(plain):
+        return result
     others = BRACKETED.findall(plain), re.split(r"\s{2,}", plain)
-    return next((each for each in (result, *others) if len(each) == width), result)
+    return next((each for each in others if len(each) == width), result)
+
+
+def _has_value(line: str) -> bool:
+    """Return whether a digit stands outside the brackets of a line."""
+    return re.search(r"\d", IN_BRACKETS.sub("", line)) is not None
 
 
 def _titles(file: TextFile, first: int, width: int) -> list[Title]:
@@ -294,25 +302,17 @@ def _plain(cell: str) -> str:
 
 
 def _only_title(file: TextFile, first: int, width: int) -> Title:
-    """Return the direction and the unit in the title of the only column of acceleration, or a vertical direction above it.
-
-    Without a title that holds the time, or a unit if there is no column of times, there is no direction and no unit.
-    """
-    cell = file.lines[first - 1].strip() if first else ""
-    if width == 2:
-        result = _heads(file, first, width)
-        cell = result[1][1] if result else ""
-    unit = unit_of((IN_BRACKETS.findall(cell) or [""])[-1])
-    if width == 1 and unit is None:
+    """Return the direction in the title of the only column of acceleration, or a vertical one above it; of two columns the unit, too."""
+    result = _heads(file, first, width) if width == 2 else None
+    cell = result[1][1] if result else file.lines[first - 1] if width == 1 and first else ""
+    bracketed = unit_of((IN_BRACKETS.findall(cell) or [""])[-1])
+    if width == 1 and bracketed is None:
         cell = ""
-    names = [
-        word
-        for word in WORD.findall(IN_BRACKETS.sub(_direction_alone, cell))
-        if not ACCELERATION.fullmatch(word)
-    ]
-    if names and all(
-        DIRECTION.fullmatch(word) or (unit is not None and word in ("v", "V")) for word in names
-    ):
+    unit = bracketed if width == 2 else None
+    words = WORD.findall(IN_BRACKETS.sub(_direction_alone, cell))
+    names = [word for word in words if not ACCELERATION.fullmatch(word)]
+    known = [DIRECTION.fullmatch(word) or (bracketed is not None and word in ("v", "V")) for word in names]
+    if names and all(known):
         return Title(" ".join(names), unit)
     named = "".join(word for word in names if word.lower() not in ("component", "comp", "motion"))
     return Title(vertical_of(named) or vertical_component(file.lines[:first]), unit)
@@ -344,9 +344,8 @@ def _check_titles(file: TextFile, first: int, width: int) -> None:
     for index in range(first):
         line = file.lines[index]
         result = bracketed = IN_BRACKETS.findall(line)
-        if not (
-            width > 1 and len(bracketed) == width and bracketed[0].strip().lower() in (*TIMES, *OTHER_TIMES)
-        ):
+        time = bracketed[0].strip().lower() if len(bracketed) == width > 1 else ""
+        if time not in TIMES and (time not in OTHER_TIMES or _has_value(line)):
             result = titles(line)
             if len(result) != width or not (SEPARATOR.search(line) or is_line_of_units(line)):
                 continue  # words

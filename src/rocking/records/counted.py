@@ -10,9 +10,11 @@ from rocking.records.text_file import NUMBER, ROW, Channel, TextFile, in_plain_n
 from rocking.records.units import header_units
 
 NAMED = re.compile(r"\bNPTS\s*=\s*([^,;\s]{1,40})[\s,;]*DT\s*=\s*([^,;\s]+)", re.IGNORECASE)
-COMPONENT = re.compile(
-    r"\b(?:comp(?:onent)?|channel|stream|direction|dir|orientation)\b\.?\s*[:=]\s*([^,;]+)", re.IGNORECASE
+COMPONENT = re.compile(r"\bcomp(?:onent)?\b\.?\s*[:=]\s*([^,;]+)", re.IGNORECASE)
+DIRECTION = re.compile(
+    r"\b(?:channel|stream|direction|dir|orientation)\b\.?\s*[:=]\s*([^,;\d]+)(?![^,;])", re.IGNORECASE
 )
+"""Other words for a component; a value with digits names none."""
 COUNT = re.compile(r"[0-9]{1,12}")
 HEADER_LINES = 100
 FEWEST = 10
@@ -82,14 +84,23 @@ def _unnamed(file: TextFile, first: int) -> _Counts | None:
 
 
 def vertical_component(lines: list[str]) -> str:
-    """Return the vertical component that lines such as "Component: UP" name; empty if they name none, or another one, too."""
-    named = [match[1].strip() for line in lines if (match := COMPONENT.search(line))]
-    vertical = all(is_vertical(name) and not re.search(r"\d", name) for name in named)
-    return named[0] if named and vertical else ""
+    """Return the vertical component that lines such as "Component: UP" name; empty if they name none, or another one, too.
+
+    Lines such as "Channel: HNZ" count where there is none of these.
+    """
+    for pattern in (COMPONENT, DIRECTION):
+        if named := [name.strip() for line in lines for name in pattern.findall(line)]:
+            return named[0] if all(map(_is_vertical, named)) else ""
+    return ""
+
+
+def _is_vertical(name: str) -> bool:
+    """Return whether a name after "Component:" is vertical: of letters alone Z only, for U and V may be anything."""
+    return name.upper() == "Z" or (len(name) > 1 and is_vertical(name) and not re.search(r"\d", name))
 
 
 def vertical_of(name: str) -> str:
-    """Return a name that can only be that of a vertical component, and empty for others: a letter alone may be anything."""
+    """Return a title that can only be that of a vertical component, and empty for others: a letter alone may be anything."""
     letters = name.replace("-", "").lower()
     return name if len(letters) > 1 and letters in VERTICAL else ""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -75,7 +76,7 @@ SIZE = r"[-+]?\d[\d.]*+(?:e[-+]?\d+)?\s++([^\s()\[\],;]++)"
 QUANTITY = re.compile(rf"(?<![\w.]){SIZE}", re.IGNORECASE)
 """Number and the word after it, a unit perhaps."""
 SIZE_OF_G = re.compile(
-    r"[(\[]?(?:(?:\b1?\s*+g\s*+[=:]|=)\s*+)?(?<![\d.])9(?:\.8\d*|8[01](?:\.\d*)?)\s*([^\s()\[\],;\d.]+\d?)[)\]]?",
+    r"[(\[]?(?:(?:\b1?\s*+g\s*+[=:]|=)\s*+)?(?<![\d.])(?P<size>9(?:\.8\d*|8[01](?:\.\d*)?))\s*([^\s()\[\],;\d.]+\d?)[)\]]?",
     re.IGNORECASE,
 )
 """Size of g with its unit, as in (1 g = 9.81 m/s2)."""
@@ -84,13 +85,18 @@ FACTOR = re.compile(
     re.IGNORECASE,
 )
 """Factor in the place of a unit, with the unit after it, as in (0.01 m/s2)."""
-OTHER_SAMPLES = re.compile(
-    r"[(\[]?\b(?:(?:multiply|divide|be multiplied|be divided) by|to convert|factor to|original)\b"
-    r"(?:(?!\. |: | - )[^()\[\],;])*+|\bfrom\s+\S+|\b(?:range|trigger|threshold|sensitivity|resolution)\b[^\[\],;]*",
+CONVERSION = re.compile(
+    r"[(\[]?\b(?:(?:multiply|divide|be multiplied|be divided) by|to convert|factor to|original units?)\b"
+    r"(?:(?!\. |: | - )[^()\[\],;])*+",
     re.IGNORECASE,
 )
-"""Words on other units than those of the samples: of a conversion, of the samples before it, of an instrument."""
-LABEL = re.compile(r"[\[(][^\[\]()]*[\])]\s*[=:]\s*[-+]?\.?\d")
+"""Words on other units than those of the samples."""
+OTHER_SAMPLES = re.compile(
+    r"\b(?:from|(?:range|trigger|threshold|sensitivity|resolution)(?: level)?\s*[:=]?\s*[-+]?[\d.]++)\s+([^\s,;]++)",
+    re.IGNORECASE,
+)
+"""Unit of the samples before a conversion, or of a number of the instrument."""
+LABEL = re.compile(r"[\[(][^\[\]()]*[\])]\s*[=:]\s*[-+]?[\d.]++(?:e[-+]?\d+)?(?:\s+at\b|\s*$)", re.IGNORECASE)
 """Unit and value of a quantity of the header, as in Peak acceleration (g): 0.35."""
 CHOICES = "be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'"
 
@@ -146,10 +152,12 @@ def header_units(lines: Sequence[str]) -> HeaderUnits:
         if is_line_of_units(line):
             stated += titles(line)
         other = QUANTITY if _begins_in_g(line) else FACTOR
-        own = OTHER_SAMPLES.sub(" ", SIZE_OF_G.sub(_without_unit, line))
+        own = CONVERSION.sub(" ", OTHER_SAMPLES.sub(_without_unit, SIZE_OF_G.sub(_without_g, line)))
         for cell in SEPARATOR.split(other.sub(_without_unit, own)):
             named = IN_BRACKETS.findall(cell) + re.split(r"[\s_\"'=:()\[\]]+", cell)
-            if (word := SPEAKS.search(cell)) and not LABEL.search(cell):
+            if LABEL.search(cell):
+                mentioned += IN_BRACKETS.findall(cell)
+            elif word := SPEAKS.search(cell):
                 stated += [each for each in named if not each.isalpha()] + IN_BRACKETS.findall(cell)
                 stated += STATED.findall(cell[word.start() :])
             else:
@@ -164,8 +172,15 @@ def _begins_in_g(line: str) -> bool:
 
 
 def _without_unit(quantity: re.Match[str]) -> str:
-    """Return a match of `QUANTITY`, `FACTOR` or `SIZE_OF_G` as it is, or a blank if its word is a unit."""
+    """Return a match of `QUANTITY`, `FACTOR` or `OTHER_SAMPLES` as it is, or a blank if its word is a unit."""
     return quantity[0] if unit_of(quantity[1]) is None else " "
+
+
+def _without_g(size: re.Match[str]) -> str:
+    """Return a blank for the size of g, and a match of `SIZE_OF_G` in another unit as it is."""
+    unit = unit_of(size[2])
+    is_g = unit is not None and math.isclose(float(size["size"]) * UNITS[unit], GRAVITY, rel_tol=2e-3)
+    return " " if is_g else size[0]
 
 
 def _units(texts: Sequence[str]) -> frozenset[str]:

@@ -21,6 +21,34 @@ class Engine(Protocol):
         ...
 
 
+class ClusterFuture(Future[Any]):
+    """Result of a task of a Dask cluster."""
+
+    def __init__(self, task: Any) -> None:
+        super().__init__()
+        self.task = task
+
+    def cancel(self) -> bool:
+        """Cancel the task, also while its result is being read."""
+        if not self.done() and self.task.client.status == "running":
+            self.task.cancel()
+        return super().cancel()
+
+    def settle(self, task: Any) -> None:
+        """Take over the result of the task, or its error."""
+        value, error = None, None
+        try:
+            value = task.result()
+        except BaseException as raised:  # noqa: BLE001 (the caller of `result` gets it)
+            error = raised
+        if not self.set_running_or_notify_cancel():
+            return
+        if error is None:
+            self.set_result(value)
+        else:
+            self.set_exception(error)
+
+
 class ClusterExecutor(Executor):
     """Executor that submits to a Dask cluster.
 
@@ -32,26 +60,16 @@ class ClusterExecutor(Executor):
 
     def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Submit a call; the cluster repeats it if its worker is lost."""
-        answer: Future[Any] = Future()
         task = self.client.submit(function, *args, **kwargs, pure=False)
-
-        def settle(task: Any) -> None:
-            if not answer.set_running_or_notify_cancel():
-                return
-            try:
-                answer.set_result(task.result())
-            except BaseException as error:  # noqa: BLE001 (the caller of `result` gets it)
-                answer.set_exception(error)
-
-        task.add_done_callback(settle)
-        answer.add_done_callback(lambda ended: task.cancel() if ended.cancelled() else None)
-        return answer
+        result = ClusterFuture(task)
+        task.add_done_callback(result.settle)
+        return result
 
 
 def is_client(executor: object) -> bool:
-    """Return whether an object is a client of a Dask cluster."""
+    """Return whether an object is a client of a Dask cluster that may wait for results."""
     distributed = sys.modules.get("distributed")
-    return distributed is not None and isinstance(executor, distributed.Client)
+    return distributed is not None and isinstance(executor, distributed.Client) and not executor.asynchronous
 
 
 @contextmanager
