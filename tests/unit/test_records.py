@@ -784,11 +784,13 @@ def test_titles_of_two_columns_that_are_other_quantities_are_refused(make, heade
         (["# Component: UP", "# time (s), acc (g)", "0,1", "1,2"], True),
         (["A", "B", "Component: Up", "Unit: g", "NPTS=2, DT=0.01", "0.1 0.2"], True),
         (["Channel: HNZ", "# time (s), acc (g)", "0,1", "1,2"], True),
+        (["Component,UP", "# time (s), acc (g)", "0,1", "1,2"], True),
+        (["Duration (min) and peak (g)", "time (s), acc (g)", "0,1", "1,2"], False),
         (["Channel: 3", "Component: Vertical", "# time (s), acc (g)", "0,1", "1,2"], True),
         (["Orientation: Down, Component: E", "# time (s), acc (g)", "0,1", "1,2"], False),
         (["t (s),SE (g)", "0,1", "1,2"], False),
         (["Sample time (s),acc (g)", "1,1", "2,2"], False),
-        (["Sampling interval (ms) 10 PGA (g) 0.22", "time (s),acc (g)", "0,1", "1,2"], False),
+        (["Sampling interval (ms) 10 PGA (g) 2", "time (s),acc (g)", "0,1", "1,2"], False),
         (["Time (s)  Vertical acceleration (g)", "0 1", "1 2"], True),
         (["time (s),V (g)", "0,1", "1,2"], True),
         (["time (s),acc (Z) (g)", "0,1", "1,2"], True),
@@ -888,10 +890,10 @@ def test_words_above_the_titles_do_not_change_the_reading(make, line):
 @pytest.mark.parametrize(
     "line",
     [
-        "PGA (3.417 m/s2)",
-        "Peak acceleration (3.417 m/s2)",
-        "Station G, PGA = 3.4 m/s2",
-        "Max. 3.4 m/s2 = 0.35 g",
+        "PGA (0.2 m/s2)",
+        "Peak acceleration (0.2 m/s2)",
+        "Station G, PGA = 0.2 m/s2",
+        "Max. 0.2 m/s2 = 0.02 g",
         "Acceleration range -1.2 to 2.3 m/s2",
         "Original acceleration record in m/s2",
         "Digitiser resolution 24 bit. Acceleration in m/s2",
@@ -900,6 +902,20 @@ def test_words_above_the_titles_do_not_change_the_reading(make, line):
 )
 def test_the_unit_of_a_peak_is_used_where_there_is_no_other(make, line):
     assert rk.read_ground_motion(make([line, "0 0.1", "0.02 0.2"])).pga == 0.2
+
+
+@pytest.mark.parametrize(
+    ("lines", "stated"),
+    [
+        (["PGA = 1.96 m/s2 at 0.02 s", "0 0.1", "0.02 0.2"], "1.96"),
+        (["Peak acceleration (g): 0.02", "unit: g", "0 0.1", "0.02 0.2"], "0.19613"),
+        (["Peak Acc (g),0.02", "Time,Acc", "0,0.1", "0.02,0.2"], "0.19613"),
+        (["A", "B", "max. 20 gal", "unit: g", "NPTS=2, DT=0.01", "0.1 0.2"], "0.2"),
+    ],
+)
+def test_peak_in_words_that_is_not_that_of_the_samples_gets_a_warning(make, lines, stated):
+    with pytest.warns(rk.InputWarning, match=f"the header states {stated} m/s²"):
+        rk.read_ground_motion(make(lines))
 
 
 def test_empty_rows_of_a_spreadsheet_end_the_samples(make):

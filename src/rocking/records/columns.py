@@ -9,7 +9,7 @@ from typing import NamedTuple
 from attrs import evolve
 
 from rocking.model.text import counted, formatted
-from rocking.records.counted import is_count, vertical_component, vertical_of
+from rocking.records.counted import is_count, stated_peak, vertical_component, vertical_of
 from rocking.records.text_file import (
     MAX_SAMPLES,
     NUMBER,
@@ -139,13 +139,14 @@ def read(file: TextFile) -> list[Channel]:
     else:
         _check_running(file, first, rows, times)
         times = _with_stated(times, _step(header))
+    peak = stated_peak(file, first) if len(titled) == 1 else None
     result = []
     for place, (name, unit) in enumerate(titled, width - len(titled)):
         samples = file.numbers(places, [row[place] for row in rows], "a sample")
         others = units.named if width == 2 else frozenset()
         stated = units._replace(named=others | {unit}) if unit else units
         result.append(
-            Channel(samples, stated.only(), step, "text", component=name, header=stated, times=times)
+            Channel(samples, stated.only(), step, "text", "", name, peak, header=stated, times=times)
         )
     return result
 
@@ -345,7 +346,7 @@ def _check_titles(file: TextFile, first: int, width: int) -> None:
         line = file.lines[index]
         result = bracketed = IN_BRACKETS.findall(line)
         time = bracketed[0].strip().lower() if len(bracketed) == width > 1 else ""
-        if time not in TIMES and (time not in OTHER_TIMES or _has_value(line)):
+        if time not in TIMES and (time not in OTHER_TIMES or index != last or _has_value(line)):
             result = titles(line)
             if len(result) != width or not (SEPARATOR.search(line) or is_line_of_units(line)):
                 continue  # words

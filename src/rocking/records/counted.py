@@ -6,15 +6,21 @@ import re
 from typing import NamedTuple
 
 from rocking.model.ground_motion import VERTICAL, is_vertical
-from rocking.records.text_file import NUMBER, ROW, Channel, TextFile, in_plain_numbers
-from rocking.records.units import header_units
+from rocking.records.text_file import NUMBER, ROW, Channel, Peak, TextFile, in_plain_numbers
+from rocking.records.units import header_units, unit_of
 
 NAMED = re.compile(r"\bNPTS\s*=\s*([^,;\s]{1,40})[\s,;]*DT\s*=\s*([^,;\s]+)", re.IGNORECASE)
-COMPONENT = re.compile(r"\bcomp(?:onent)?\b\.?\s*[:=]\s*([^,;]+)", re.IGNORECASE)
+COMPONENT = re.compile(r"\bcomp(?:onent)?\b\.?\s*[:=,;\t]\s*([^,;]+)", re.IGNORECASE)
 DIRECTION = re.compile(
     r"\b(?:channel|stream|direction|dir|orientation)\b\.?\s*[:=]\s*([^,;\d]+)(?![^,;])", re.IGNORECASE
 )
 """Other words for a component; a value with digits names none."""
+PEAK = re.compile(
+    r"\b(?:pga|peak|max(?:imum)?)\b[^\d\[(:=,;]*(?:[\[(](?P<before>[^\[\]()]*)[\])])?\s*[:=,;]?\s*"
+    rf"(?P<size>{NUMBER.pattern})(?:\s*(?P<after>[^\s()\[\],;]+))?",
+    re.IGNORECASE,
+)
+"""Peak acceleration in words, as in PGA = 2.3 m/s2 or Peak acceleration (g): 0.23."""
 COUNT = re.compile(r"[0-9]{1,12}")
 HEADER_LINES = 100
 FEWEST = 10
@@ -45,8 +51,8 @@ def read(file: TextFile) -> list[Channel]:
     units = header_units(header)
     name = next((line.strip() for line in header[: counts.line] if line.strip()), "")
     step = None if counts.step is None else file.step(counts.line, counts.step)
-    component = vertical_component(header)
-    return [Channel(samples, units.only(), step, "text", name, component, header=units)]
+    component, peak = vertical_component(header), stated_peak(file, counts.after)
+    return [Channel(samples, units.only(), step, "text", name, component, peak, header=units)]
 
 
 def _counts(file: TextFile) -> _Counts | None:
@@ -81,6 +87,15 @@ def _unnamed(file: TextFile, first: int) -> _Counts | None:
     if total == int(head[0]) + 1 and len(rows[second - 1]) == 1:
         return _Counts(first + second + 1, first, head[0], rows[second - 1][0])
     return _Counts(first + 1, first, head[0], None) if total == int(head[0]) else None
+
+
+def stated_peak(file: TextFile, after: int) -> Peak | None:
+    """Return the first peak acceleration with its unit in the lines above the samples; None if they state none."""
+    for index in range(after):
+        for match in PEAK.finditer(file.lines[index]):
+            if unit := unit_of(match["before"] or match["after"] or ""):
+                return file.peak(index, match["size"], unit)
+    return None
 
 
 def vertical_component(lines: list[str]) -> str:
