@@ -785,6 +785,7 @@ def test_titles_of_two_columns_that_are_other_quantities_are_refused(make, heade
         (["A", "B", "Component: Up", "Unit: g", "NPTS=2, DT=0.01", "0.1 0.2"], True),
         (["Channel: HNZ", "# time (s), acc (g)", "0,1", "1,2"], True),
         (["Component,UP", "# time (s), acc (g)", "0,1", "1,2"], True),
+        (["unit: g", "Trigger time (s) 2.3 level (m/s2)", "Zeit,a", "0,1", "0.5,2"], False),
         (["Duration (min) and peak (g)", "time (s), acc (g)", "0,1", "1,2"], False),
         (["Channel: 3", "Component: Vertical", "# time (s), acc (g)", "0,1", "1,2"], True),
         (["Orientation: Down, Component: E", "# time (s), acc (g)", "0,1", "1,2"], False),
@@ -816,7 +817,9 @@ def test_title_of_two_columns_or_a_line_above_names_the_vertical(make, lines, ve
 
 
 def test_third_direction_of_a_sensor_is_vertical(make):
-    records = rk.read_ground_motion(make(["time (s),ax (g),ay (g),az (g)", "0,1,2,3", "1,2,3,4"]), channel=3)
+    records = rk.read_ground_motion(
+        make(["PGA 1 g", "time (s),ax (g),ay (g),az (g)", "0,1,2,3", "1,2,3,4"]), channel=3
+    )
     assert records.vertical
 
 
@@ -837,6 +840,7 @@ def test_third_direction_of_a_sensor_is_vertical(make):
         (["# converted from m/s2 to g", "time,acc", "0,0.1", "0.5,0.2"], "does not state the unit"),
         (["# original units m/s2, now g", "time,acc", "0,0.1", "0.5,0.2"], "does not state the unit"),
         (["# trigger level: 0.02 m/s2", "time,acc", "0,0.1", "0.5,0.2"], "does not state the unit"),
+        (["unit: m/s2", "time (s),level (g)", "0,0.1", "0.5,0.2"], "the header names the units g and m/s²"),
         (["# gravity: 9.81 m/s2", "time,acc", "0,0.1", "0.5,0.2"], "does not state the unit"),
         (["Time step,acc (g)", "1,0.1", "2,0.2"], "the first column numbers the samples"),
         (["# sample acc_g", "1.0e+00 0.1", "2.0e+00 0.2"], "the first column numbers the samples"),
@@ -908,6 +912,7 @@ def test_the_unit_of_a_peak_is_used_where_there_is_no_other(make, line):
     ("lines", "stated"),
     [
         (["PGA = 1.96 m/s2 at 0.02 s", "0 0.1", "0.02 0.2"], "1.96"),
+        (["PGA = 981 mm/s2", "0 500", "0.02 900"], "0.981"),
         (["Peak acceleration (g): 0.02", "unit: g", "0 0.1", "0.02 0.2"], "0.19613"),
         (["Peak Acc (g),0.02", "Time,Acc", "0,0.1", "0.02,0.2"], "0.19613"),
         (["A", "B", "max. 20 gal", "unit: g", "NPTS=2, DT=0.01", "0.1 0.2"], "0.2"),
