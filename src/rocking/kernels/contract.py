@@ -87,6 +87,11 @@ def units_of(p, side):
 
 
 @contract
+def left_half(p):
+    """Return the slender system of the left side of a block with unequal sides."""
+
+
+@contract
 def drive_in(source, target, drive, factor):
     """Return the drive of a slender system in the units of another one, whose times are larger by a factor."""
 

@@ -210,7 +210,7 @@ class SampledConstants(NamedTuple):
 @kernel(inline=True)
 def last_index(p):
     """Return the index of the interval after the last sample."""
-    return p.forcing.tables.knots.shape[0] - 1
+    return p.forcing.tables.samples.shape[0] - 1
 
 
 @kernel(inline=True)

@@ -45,11 +45,9 @@ def after_impact(p, arc, time, coming, horizon, peak):
     before = max(-coming.velocity, 0.0)
     restitution, _ = restitution_at(p, arc.side, before)
     speed = restitution * before
-    if speed < NEGLIGIBLE and restitution < 1.0:
-        speed = 0.0
     side, mode = side_after_impact(p, arc.side), FLIGHT
-    if speed == 0.0:
-        side = side_to_lift(p, time, coming.drive)
+    if speed < NEGLIGIBLE and (restitution < 1.0 or speed == 0.0):
+        speed, side = 0.0, side_to_lift(p, time, coming.drive)
         if side == 0 or time == arc.start:
             side, mode = arc.side, REST
     after = arc_after(p, side, time, 0.0, speed, coming)

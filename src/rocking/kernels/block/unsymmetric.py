@@ -2,8 +2,8 @@
 
 In ``Units`` of its own each side is a slender block: its base acceleration is smaller by the ratio, and its times are longer by
 the rate. So all arcs are those of slender blocks. ``half`` is the block of a side, and the bodies below change the units. The
-constants of an arc are in the units of its side; so is what ``contract`` says to be. A block against a wall has no arcs on the left,
-whose ratio is infinite.
+constants of an arc are in the units of its side; so is what ``contract`` says to be. The common units are those of the right side. A
+block against a wall has no arcs on the left, whose ratio is infinite.
 """
 
 import math
@@ -12,12 +12,15 @@ from typing import Any, NamedTuple
 from rocking.kernels import contract
 from rocking.kernels.arc.arc import NO_EXTREMES, UNIT_RATE, Arc, Instant, Next, Transfer, with_reached
 from rocking.kernels.base.cosine import Cosine, Pulse, PulseDrive
-from rocking.kernels.base.samples import SampledDrive, Samples, last_index
+from rocking.kernels.base.samples import SampledDrive, Samples, Tables, last_index
 from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.library.kernel import body, kernel
+from rocking.kernels.numerics.replace_fields import replacing
 from rocking.kernels.system import Full, Slender, SlenderBlock, Units, Unsymmetric
 
 ONES = Units(1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
+with_forcing, with_tables = replacing(Slender, "forcing"), replacing(Samples, "tables")
+with_common = replacing(Tables, "largest", "samples", "blocks", "variation")
 
 
 class SidedGuess(NamedTuple):
@@ -37,7 +40,21 @@ def right_half(p):
 @kernel(inline=True)
 def half(p, side):
     """Return the slender system of a side."""
-    return p.left if side < 0 else right_half(p)
+    return contract.left_half(p) if side < 0 else right_half(p)
+
+
+@body(contract.left_half, Unsymmetric, inline=True)
+def left_half(p):
+    """Provide ``contract.left_half``."""
+    return p.left
+
+
+@body(contract.left_half, Unsymmetric, Samples, inline=True)
+def left_half_under_samples(p):
+    """Provide ``contract.left_half``: what does not depend on the step is that of the right side, so that nothing is chosen by the side."""
+    left, right = p.left.forcing.tables, p.forcing.tables
+    tables = with_common(left, right.largest, right.samples, right.blocks, right.variation)
+    return with_forcing(p.left, with_tables(p.left.forcing, tables))
 
 
 @body(contract.units_of, Unsymmetric, inline=True)
@@ -80,13 +97,17 @@ def scaled_place(source, target, drive, factor):
 @kernel(inline=True)
 def own_drive(p, side, drive):
     """Return a drive in the units of a side."""
-    return contract.drive_in(right_half(p), half(p, side), drive, units_of(p, side).rate)
+    if side > 0:
+        return drive
+    return contract.drive_in(right_half(p), half(p, side), drive, p.block.units.rate)
 
 
 @kernel(inline=True)
 def common_drive(p, side, drive):
     """Return a drive of a side in the common units."""
-    return contract.drive_in(half(p, side), right_half(p), drive, units_of(p, side).per_rate)
+    if side > 0:
+        return drive
+    return contract.drive_in(half(p, side), right_half(p), drive, p.block.units.per_rate)
 
 
 @kernel(inline=True)

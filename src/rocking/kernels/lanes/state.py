@@ -290,7 +290,7 @@ def lane_workspace(workspace, lane):
 LN2 = math.log(2.0)
 
 
-@kernel
+@kernel(inline=True)
 def load_block(s, i, p, progress, columns):
     """Load a block into a lane."""
     set_system(s, i, p)

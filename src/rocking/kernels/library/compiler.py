@@ -98,6 +98,7 @@ class KernelLibrary(JITCodeLibrary):
         for function in self._final_module.functions:
             if self.stays and not function.is_declaration:
                 function.add_function_attribute("noinline")
+                function.add_function_attribute("cold")
         self._finalized = True
 
     def get_pointer_to_function(self, name: str) -> int:
@@ -151,7 +152,7 @@ class KernelCompiler(Compiler):
 
 
 SELDOM: set[Callable[..., Any]] = set()
-"""Kernels that stay functions."""
+"""Kernels that stay functions, and that the compiler takes for unlikely: it keeps its registers for the code that does not call them."""
 LOWERING = {"pipeline_class": KernelCompiler, "no_cpython_wrapper": True}
 """Options of a process that makes a library. Elsewhere kernels are compiled whole, so that tests can call them."""
 _more: dict[str, Any] = {}
