@@ -13,9 +13,11 @@ import pytest
 import xarray as xr
 
 import rocking as rk
-from rocking.survey.ending_measures import VARIABLES, ending, runs_of_equal_tables
+from rocking.motion import march_loop
+from rocking.motion.march_loop import tables_for
+from rocking.survey.ending_measures import VARIABLES, ending, runs_of_equal_tables, sampled
 from rocking.survey.measurement import batches
-from rocking.survey.spec import motion_spec
+from rocking.survey.spec import Left, motion_spec
 from rocking.survey.tiling import finest, levels
 
 GRAVITY = 9.80665
@@ -286,6 +288,24 @@ def test_neighbours_with_equal_record_and_frequency_parameter_are_one_stretch():
     runs = spec.inputs({name: values.ravel() for name, values in zip(spec.axes, mesh, strict=True)})
     parts = list(runs_of_equal_tables(runs))
     assert [(part.start, part.stop) for part in parts] == list(pairwise(range(0, 9, 2)))
+
+
+def test_tables_of_a_record_are_kept_until_there_are_too_many_samples(monkeypatch):
+    monkeypatch.setattr(march_loop, "MAX_KEPT", 10)
+    records = [rk.PiecewiseLinear(np.sin(np.arange(6.0) + k), step=0.1) for k in range(3)]
+    first, second, third = (tables_for(record) for record in records)  # two of them have 12 samples
+    assert tables_for(records[1]) is second
+    assert tables_for(records[2]) is third
+    assert tables_for(records[0]) is not first
+
+
+def test_batches_of_an_unequal_block_share_the_tables_of_both_sides(monkeypatch):
+    monkeypatch.setattr(march_loop, "MAX_KEPT", 10)
+    record = rk.PiecewiseLinear(np.sin(np.arange(6.0)), step=0.1)
+    left = Left(np.array([1.2]), np.array([1.1]), np.array([0.9]), unequal=True)
+    one, other = (sampled(record, full=False, left=left) for _ in range(2))
+    assert one.forcing.tables is other.forcing.tables
+    assert one.left.forcing.tables is other.left.forcing.tables
 
 
 def test_bar_says_the_number_of_points_and_ends_with_the_outcomes(terminal):

@@ -27,8 +27,11 @@ SMALL = 1e-8
 
 Up to |Θ| = 2 its sine and tangent are linear, and its cosine is 1, to 2e-16. So the equation is that of the slender block to rounding.
 """
-MAX_TABLES = 16
-"""Number of tables that are kept, one for the samples of a record at a step; a block with unequal sides has two."""
+MAX_TABLES, MAX_KEPT = 128, 400_000
+"""Number of tables that are kept, one for the samples of a record at a step, and of their samples, which have 80 bytes each.
+
+The last two are kept in any case: a block with unequal sides or with a restrainer has two.
+"""
 _tables: OrderedDict[tuple[int, float], tuple[np.ndarray, numbers.Tables]] = OrderedDict()
 _lock = Lock()
 
@@ -53,10 +56,7 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
         assert isinstance(block, numbers.FullBlock)
         vertical = system.vertical.scale * system.vertical.values
         return numbers.biaxial_system(block, tables_for(forcing), forcing.scale, vertical, length)
-    left_tables = None
-    if isinstance(block, numbers.UnsymmetricBlock):
-        left_tables = tables_for(forcing, block.left.rate)
-    free = numbers.sampled_system(block, tables_for(forcing), forcing.scale, length, left_tables)
+    free = under_samples(block, forcing, forcing.scale, length)
     if not system.is_restrained:
         return free
     own = _restrainer_of(system)
@@ -112,6 +112,16 @@ def _cosine_of(pulse: Pulse, cycle_length: float | None) -> dict[str, Any]:
     }
 
 
+def under_samples(
+    block: numbers.Block, forcing: PiecewiseLinear, scale: float, length: float
+) -> numbers.AnySampledParameters:
+    """Return the parameters of a block without restrainers under the samples of a forcing at a scale; `length` is that of a cycle."""
+    left_tables = None
+    if isinstance(block, numbers.UnsymmetricBlock):
+        left_tables = tables_for(forcing, block.left.rate)
+    return numbers.sampled_system(block, tables_for(forcing), scale, length, left_tables)
+
+
 def tables_for(forcing: PiecewiseLinear, rate: float = 1.0) -> numbers.Tables:
     """Return the tables of the samples of a forcing, its step multiplied by a rate, made once as long as they are kept."""
     key = id(forcing.values), forcing.step * rate
@@ -122,8 +132,9 @@ def tables_for(forcing: PiecewiseLinear, rate: float = 1.0) -> numbers.Tables:
     made = numbers.tables_of(forcing.values, forcing.step * rate)
     with _lock:
         _tables[key] = forcing.values, made  # the samples too, so that no others get their identity
-        while len(_tables) > MAX_TABLES:
-            _tables.popitem(last=False)
+        size = sum(values.size for values, _ in _tables.values())
+        while len(_tables) > 2 and (size > MAX_KEPT or len(_tables) > MAX_TABLES):
+            size -= _tables.popitem(last=False)[1][0].size
     return made
 
 

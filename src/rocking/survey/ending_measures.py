@@ -18,7 +18,7 @@ from rocking.model.quantity import LEFT_QUANTITIES
 from rocking.model.record_set import RecordSet
 from rocking.model.restitution import Scatter
 from rocking.model.verdict import Outcome
-from rocking.motion.march_loop import scatter_of
+from rocking.motion.march_loop import scatter_of, tables_for, under_samples
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.spec import UNRESTRAINED, Left, Pulses, Ratios, Runs, motion_spec
 
@@ -164,16 +164,16 @@ def sampled(
 ) -> numbers.AnySampledParameters:
     """Return parameters with the tables of a base motion, for runs of any blocks of one kind and law of restitution.
 
+    Batches that share the samples in memory, those of threads, share the tables, too.
     Unsymmetric blocks have the ratio of the frequency parameters of that at a place: their left sides have tables of their own.
     Restrained blocks have those of the balance at a critical angle in rad.
     """
-    tables, length = numbers.tables_of(base.values, base.step), numbers.CYCLE * base.step
     block = _any_block(full=full, left=left, place=place, law=law, scatter=scatter)
-    free = numbers.sampled_system(block, tables, 1.0, length)
+    free = under_samples(block, base, 1.0, numbers.CYCLE * base.step)
     if restrainer == UNRESTRAINED:
         return free
     own = restrainer_of(critical_angle, *restrainer)
-    return restrained_under_samples(free, own, numbers.tables_of(base.values, base.step * own.rate))
+    return restrained_under_samples(free, own, tables_for(base, own.rate))
 
 
 def _any_block(
