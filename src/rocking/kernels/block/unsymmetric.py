@@ -51,7 +51,10 @@ def left_half(p):
 
 @body(contract.left_half, Unsymmetric, Samples, inline=True)
 def left_half_under_samples(p):
-    """Provide ``contract.left_half``: what does not depend on the step is that of the right side, so that nothing is chosen by the side."""
+    """Provide ``contract.left_half``.
+
+    What does not depend on the step is that of the right side, so that the compiler chooses fewer fields by the side.
+    """
     left, right = p.left.forcing.tables, p.forcing.tables
     tables = with_common(left, right.largest, right.samples, right.blocks, right.variation)
     return with_forcing(p.left, with_tables(p.left.forcing, tables))
