@@ -325,6 +325,23 @@ def test_block_in_metres_stays_in_the_commands(rocking):
     )
 
 
+def made_by_code(view):
+    """Return what the Python code of a view makes, with three values along each axis."""
+    names = {}
+    exec(texts.python(view).replace("101)", "3)"), names)
+    return names
+
+
+@pytest.mark.parametrize("units", [lambda view: view, in_si], ids=["normalised", "SI"])
+@pytest.mark.parametrize(
+    "window, angles", [((-1.2, 1.2), [-0.8, 0, 0.8]), ((0.2, 1.5), [0.2, 0.5, 0.8]), ((0.9, 1.2), None)]
+)
+def test_code_leaves_out_starts_beyond_the_braces(units, window, angles):
+    view = attrs.evolve(units(DEFAULT), brace_angle=0.8, angles=Span(*window))
+    basin = made_by_code(view).get("basin")
+    assert basin is None if angles is None else basin.dataset.angle.values == pytest.approx(angles)
+
+
 def test_full_block_is_in_the_link_the_code_and_the_commands(rocking):
     shown = DEFAULT.changed({"critical_angle": "0.25"})
     assert shown.system == rk.System(rk.Harmonic(2.0, period=1.0), 0.925, critical_angle=0.25)
@@ -333,8 +350,7 @@ def test_full_block_is_in_the_link_the_code_and_the_commands(rocking):
         assert line.count("--critical-angle=0.25") == 1
         code, message, _ = rocking(line.removeprefix("rocking ").replace(":101", ":3"))
         assert (code, message) == (0, "")
-    names = {}
-    exec(texts.python(shown).replace("101)", "3)"), names)
+    names = made_by_code(shown)
     assert names["system"] == shown.system
     assert names["responses"].dataset.attrs["critical_angle"] == 0.25
 
@@ -920,7 +936,7 @@ def test_case_of_the_gallery_has_a_picture_of_its_phase_portrait(case):
 @CASES
 def test_case_of_the_gallery_has_an_address_and_lines_of_python(case):
     assert HarmonicView.from_address(case.view.address) == (case.view, {})
-    compile(texts.python(case.view), case.name, "exec")
+    assert made_by_code(case.view)["system"] == case.view.system
 
 
 def test_codes_of_criteria_in_a_map_have_the_level_that_classify_gives():

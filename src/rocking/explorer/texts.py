@@ -6,8 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 
-from rocking.explorer.fields import written
+from rocking.explorer.fields import Span, written
 from rocking.explorer.harmonic_maps import SHADED
 from rocking.explorer.harmonic_view import DEFAULT, HarmonicView
 from rocking.model.block import Block
@@ -151,7 +152,9 @@ def _entry(name: str, colour: str, look: palette.Look, share: float, done: bool)
 
 
 def python(view: HarmonicView) -> str:
-    """Return Python code that reproduces the view, in its units."""
+    """Return Python code that reproduces the view, in its units; it leaves out initial angles beyond the braces."""
+    angles = _between_braces(view)
+    view = evolve(view, angles=angles or view.angles)
     phase = "" if view.phase == 0.0 else f", phase={view.phase!r}"
     if view.block is None:
         lines, limits = _normalised_code(view, phase), view.fields
@@ -164,6 +167,8 @@ def python(view: HarmonicView) -> str:
         return grid if view.block is None else AXES_IN_SI[ranges].format(grid)
 
     varied = "amplitudes" if view.vary == "amplitude" else "periods"
+    grid = f"angle={axis('angles')}, velocity={axis('velocities')}"
+    basin = [f"basin = rk.basin_map(system, {grid}, boundary_runs=0)"] if angles else []
     return "\n".join(
         [
             "import numpy as np",
@@ -172,7 +177,7 @@ def python(view: HarmonicView) -> str:
             *lines,
             "print(rk.classify(system, start))",
             f"motion = rk.simulate(system, start, cycles={view.first + view.cycles})",
-            f"basin = rk.basin_map(system, angle={axis('angles')}, velocity={axis('velocities')}, boundary_runs=0)",
+            *basin,
             f"diagram = rk.orbit_diagram(system, start, {view.vary}={axis(varied)})",
             "responses = rk.parametric_map(",
             "    system,",
@@ -182,6 +187,13 @@ def python(view: HarmonicView) -> str:
             ")",
         ]
     )
+
+
+def _between_braces(view: HarmonicView) -> Span | None:
+    """Return the part of the initial angles of the basin map that lies between the braces."""
+    reach = math.inf if view.brace_angle is None else view.brace_angle
+    low, high = max(view.angles.low, -reach), min(view.angles.high, reach)
+    return Span(low, high) if low < high else None
 
 
 AXES_IN_SI = {
