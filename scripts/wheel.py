@@ -19,6 +19,8 @@ from elftools.elf.elffile import ELFFile
 from rocking.kernels.library.processor import CLASSES
 
 ROOT = Path(__file__).parents[1]
+OLDEST = (2, 5)
+"""Oldest version of glibc of a platform tag for x86-64, PEP 600."""
 
 
 def glibc_of(library: bytes) -> tuple[int, ...]:
@@ -29,10 +31,10 @@ def glibc_of(library: bytes) -> tuple[int, ...]:
 
 
 def platform_tag(wheel: Path) -> str:
-    """Return the platform tag for the libraries in a wheel."""
+    """Return the platform tag for the libraries in a wheel. pip knows none for an older glibc than OLDEST."""
     with zipfile.ZipFile(wheel) as archive:
         libraries = [archive.read(name) for name in archive.namelist() if name.endswith(".so")]
-    major, minor = max(map(glibc_of, libraries))
+    major, minor = max(OLDEST, *map(glibc_of, libraries))
     return f"manylinux_{major}_{minor}_x86_64"
 
 

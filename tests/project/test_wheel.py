@@ -54,7 +54,7 @@ def run(wheel, tmp_path_factory):
 
 
 def test_metadata_say_what_is_inside(wheel):
-    assert wheel.stat().st_size <= 6_000_000
+    assert wheel.stat().st_size <= 6_500_000
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
         (folder,) = {name.split("/")[0] for name in names if ".dist-info/" in name}
@@ -64,7 +64,7 @@ def test_metadata_say_what_is_inside(wheel):
     libraries = {f"rocking/kernels/compiled/kernels-{name}.so" for name in classes}
     assert {name for name in names if name.endswith(".so")} == libraries
     tag = f"py3-none-{script.platform_tag(wheel)}"
-    assert re.fullmatch(r"py3-none-manylinux_2_\d\d_x86_64", tag)
+    assert re.fullmatch(r"py3-none-manylinux_2_\d+_x86_64", tag)
     assert tags.get_all("Tag") == [tag]
     assert wheel.name == f"rocking-{about['Version']}-{tag}.whl"
     assert (about["Name"], about["Requires-Python"]) == ("rocking", PROJECT["requires-python"])

@@ -403,7 +403,9 @@ def problems(name, changed):
             )
         ):
             yield f"names no argument: {text[:150]}"
-        if len(text) > LONGEST_MESSAGE or len(text.splitlines()) != 1:
+        # A message on several files numbers its sentences, one for each.
+        longest = max(map(len, re.split(r" \(\d+\) ", text)))
+        if longest > LONGEST_MESSAGE or len(text.splitlines()) != 1:
             yield f"message of {len(text)} characters, {len(text.splitlines())} lines: {text[:100]}"
     wrote = [
         path

@@ -19,9 +19,19 @@ from rocking.model.progress import Bar
 from rocking.model.record_results import Fragility, OverturningSet, Sensitivity, few_records, runs_of
 from rocking.model.record_set import RecordSet, intensity_of, record_set
 from rocking.model.result import Result, along
+from rocking.model.system import MODELS
 from rocking.model.tables_and_json import json_text
 from rocking.model.text import counted
-from rocking.model.validation import Refusal, TooManyEvents, TooShort, instance, reals, refuse_if, within
+from rocking.model.validation import (
+    Refusal,
+    TooManyEvents,
+    TooShort,
+    instance,
+    one_of,
+    reals,
+    refuse_if,
+    within,
+)
 from rocking.model.verdict import Outcome
 from rocking.motion.model_warnings import block_warnings
 from rocking.motion.motion import Motion
@@ -43,6 +53,8 @@ LARGE_FACTOR = 10
 SA_PERIODS, SA_DAMPING = (0.01, 10.0), 0.05
 SURVEYS, ROWS_PER_SURVEY = 3, 0.2
 """Surveys of an assessment, and the cost of one per record, in that of a row."""
+UNCERTAIN = ("samples", "height_spread", "width_spread", "restitution_spread")
+"""Arguments of `fragility` for an uncertain block."""
 COLUMN = "column_"
 """Prefix of the variables that hold the columns of the records."""
 ROW = {
@@ -269,8 +281,12 @@ def assess(
         instance("block", block, Block), "block", "an assessment needs the base reactions of a free block"
     )
     instance("name", name, str)
+    instance("progress", progress, bool)
+    one_of("model", model, MODELS)
+    of_fragility = _checked_uncertain(uncertain)
     measure, _ = intensity_of(intensity, chosen)
     grid = np.atleast_1d(reals("levels", levels))
+    refuse_if(grid.size == 0, "levels", "hold two levels at least", levels)
     if level is not None:
         grid = with_level(grid, level)
     if friction is not None:
@@ -296,7 +312,7 @@ def assess(
     notes = [*few_records(len(chosen)), *scaled, *of_block]
     part = ROWS_PER_SURVEY * len(chosen)
     with Bar(SURVEYS * part + len(chosen), "assessing", shown=progress) as bar:
-        curves = fragility(chosen, block, grid, limits=limits, seed=seed, **how, **(uncertain or {}))
+        curves = fragility(chosen, block, grid, limits=limits, seed=seed, **how, **of_fragility)
         bar.advance(part)
         bands = overturning_set(chosen, block, grid, **how)
         bar.advance(part)
@@ -327,6 +343,14 @@ def assess(
         polarity=polarity,
     )
     return Assessment(data, block, chosen, curves, bands, changed, rate, name, tuple(notes))
+
+
+def _checked_uncertain(uncertain: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    """Return the arguments of `fragility` for an uncertain block; its own checks are those of their values."""
+    given: Mapping[str, Any] = {} if uncertain is None else instance("uncertain", uncertain, Mapping)  # type: ignore[type-abstract]
+    allowed = f"hold only {', '.join(UNCERTAIN)}"
+    refuse_if(any(key not in UNCERTAIN for key in given), "uncertain", allowed, given)
+    return given
 
 
 def with_level(levels: np.ndarray, level: float) -> np.ndarray:

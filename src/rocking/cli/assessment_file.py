@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from attrs import Factory, define, frozen
 
-from rocking.assessment.assess import checked_friction, checked_period, checked_years, with_level
+from rocking.assessment.assess import UNCERTAIN, checked_friction, checked_period, checked_years, with_level
 from rocking.cli.options import NUMBER, RESTRAINER, VALUES, Axis, InvalidInput
 from rocking.cli.record_requests import drift_warnings
 from rocking.cli.requests import values_of
@@ -39,7 +39,6 @@ MEASURES = {
     f"{name.replace('-', '_')}{ENDS[measure.unit]}": name for name, (measure, _) in INTENSITIES.items()
 }
 """Keys of the levels, and the intensity measure of each."""
-UNCERTAIN = ("samples", "height_spread", "width_spread", "restitution_spread")
 TOP = ("title", "by", "limits", "limits_deg", "sa_period_s", "polarity", "model", "seed")
 SECTIONS = ("block", "records", "levels", "uncertain", "hazard")
 OF_HAZARD = ("file", "levels", "rates_per_year", "years")

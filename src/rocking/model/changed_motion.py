@@ -396,8 +396,9 @@ class ChangedMotion:
         damping = within("damping", damping, 0, MAX_DAMPING)
         size = self._motion._samples.size
         more = size - 1
-        if damping > 0:
-            more = min(more, math.ceil(-math.log(TAIL) * period / (FULL_TURN * damping * self._motion.step)))
+        decay, lasts = FULL_TURN * damping * self._motion.step, -math.log(TAIL) * period
+        if more * decay > lasts:
+            more = math.ceil(lasts / decay)
         samples = floor_acceleration(
             self._motion._samples, self._motion.step, period, damping, min(more, MAX_SAMPLES - size)
         )
