@@ -347,7 +347,7 @@ def assess(
 
 def _checked_uncertain(uncertain: Mapping[str, Any] | None) -> Mapping[str, Any]:
     """Return the arguments of `fragility` for an uncertain block; its own checks are those of their values."""
-    given: Mapping[str, Any] = {} if uncertain is None else instance("uncertain", uncertain, Mapping)  # type: ignore[type-abstract]
+    given: Mapping[str, Any] = {} if uncertain is None else instance("uncertain", uncertain, Mapping)
     allowed = f"hold only {', '.join(UNCERTAIN)}"
     refuse_if(any(key not in UNCERTAIN for key in given), "uncertain", allowed, given)
     return given
