@@ -80,7 +80,7 @@ import rocking as rk
 system = rk.System(rk.Harmonic(2.0, period=1.0), 0.925)
 print(rk.__file__, rk.simulate(system, cycles=9).impacts, rk.classify(system).kind)
 system = rk.System(rk.Harmonic(2.0, period=1.0), 1.0)
-print(*rk.parametric_map(system, amplitude=[1.2, 2.0], period=[0.5, 1.0], max_cycles=500).kind.values.ravel())
+print(*rk.parametric_map(system, amplitude=[1.2, 2.0], period=[0.5, 1.0], max_cycles=500).dataset.kind.values.ravel())
 block = rk.Block(height=1.0, width=0.3)
 record = rk.example_ground_motion().scaled(pga=5.0)
 shaken = [rk.simulate(block.system(record, model=model)) for model in ("slender", "full")]
