@@ -346,7 +346,7 @@ def assess(
 
 
 def _checked_uncertain(uncertain: Mapping[str, Any] | None) -> Mapping[str, Any]:
-    """Return the arguments of `fragility` for an uncertain block; its own checks are those of their values."""
+    """Return the arguments of `fragility` for an uncertain block. Their names are checked here, their values by `fragility`."""
     given: Mapping[str, Any] = {} if uncertain is None else instance("uncertain", uncertain, Mapping)
     allowed = f"hold only {', '.join(UNCERTAIN)}"
     refuse_if(any(key not in UNCERTAIN for key in given), "uncertain", allowed, given)
